@@ -1,0 +1,23 @@
+/// @file GridFile.h
+/// Finds the grid to mesh in a .vdb file.
+#pragma once
+
+#include <openvdb/Grid.h>
+
+#include <string>
+
+namespace vdbtet {
+
+/// @brief Read one grid of a .vdb file.
+/// @param path       a regular file written by OpenVDB
+/// @param name       a grid's name, NAME[i] for the i-th (from 0) of several grids of that name, or [i] for
+/// the
+///                   i-th of the unnamed ones. Empty: the file's only float or double grid, else its only
+///                   level set.
+/// @param delayLoad  leave the leaf buffers on disk until they are touched, where this OpenVDB can
+/// @throw FileError        when the file cannot be read, or the name is not in it; the message lists what is
+/// @throw UnsupportedGrid  when no name is given and no single scalar grid stands out
+openvdb::GridBase::Ptr readGrid(const std::string& path, const std::string& name = {},
+                                bool delayLoad = false);
+
+} // namespace vdbtet

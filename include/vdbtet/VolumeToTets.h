@@ -1,0 +1,109 @@
+/// @file VolumeToTets.h
+/// The entry point: a sparse volume becomes a tetrahedral mesh with guaranteed dihedral angles.
+///
+/// The method is TIGER: S. W. Walker, "Tetrahedralization of Isosurfaces with Guaranteed-Quality by Edge
+/// Rearrangement", SIAM J. Sci. Comput. 35 (2013).
+#pragma once
+
+#include <vdbtet/MeshSink.h>
+#include <vdbtet/Quality.h>
+
+#include <openvdb/openvdb.h>
+#include <openvdb/util/NullInterrupter.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vdbtet {
+
+/// Which side of the isovalue is meshed. A value equal to the isovalue is inside either way.
+enum class Inside {
+    Automatic, ///< by grid class: level set Below, fog volume Above, else the side the background is not on
+    Below,     ///< values below the isovalue, as in a level set
+    Above      ///< values above the isovalue, as in a density
+};
+
+struct Options {
+    /// The surface is where the grid equals this. Default: 0 for a level set, 0.5 for a fog volume; for any
+    /// other class 0 if the background is positive, else 0.5.
+    std::optional<double> isovalue;
+    Inside inside = Inside::Automatic;
+
+    /// Lattice spacing c, a world length: the long edges of the BCC lattice. Default: voxels voxels.
+    std::optional<double> spacing;
+    /// Lattice spacing in units of the shortest edge of a voxel; ignored where spacing is given.
+    double voxels = 1.0;
+
+    /// TIGER version: 2 flips the worst-case octahedra (paper, section 6), 1 does not.
+    int tiger = 2;
+
+    /// Refuse, before the work, a surface that crosses more lattice tiles (8 x 8 x 8 cells) than this. A tile
+    /// takes about 3 kB while the mesh is made.
+    std::int64_t maxSurfaceTiles = std::int64_t(1) << 22;
+};
+
+/// What a run did, and what it was done on.
+struct Report {
+    bool cancelled = false;
+
+    std::string gridName;
+    double isovalue = 0.0;
+    Inside inside = Inside::Below; ///< as used, never Automatic
+    std::string insideRule;        ///< the same in words, and why
+    double spacing = 0.0;          ///< c, world units
+    double voxelSize = 0.0;        ///< shortest edge of a voxel, world units
+    int tiger = 2;
+
+    std::int64_t points = 0;
+    std::int64_t tets = 0;
+    std::int64_t boundaryTriangles = 0; ///< faces of exactly one tet
+    std::int64_t ambiguous = 0;         ///< tets of four manifold vertices; dropped (paper, section 2.5)
+    std::int64_t conflicts = 0;   ///< octahedra of Algorithm 5 with a fourth manifold vertex (section 6.2.1)
+    std::int64_t activeFlips = 0; ///< long edges flipped by Algorithm 4
+    std::int64_t extraFlips = 0;  ///< long edges flipped by Algorithm 5
+    std::int64_t lastResortFlips = 0; ///< conflicts flipped all the same (section 6.2.2)
+    std::int64_t surfaceTiles = 0;    ///< tiles that held any per-vertex state
+    std::int64_t cutEdges = 0;        ///< short edges with a cut point
+    std::int64_t backLabelled = 0;    ///< vertices that the serial worklist settled
+    std::int64_t tieBroken = 0;       ///< vertices settled by the rule for exact ties and cycles
+
+    AngleStats angles;     ///< over all tets
+    double angleMin = 0.0; ///< the bounds proven for this run: the angles lie strictly between them
+    double angleMax = 180.0;
+    openvdb::BBoxd bounds; ///< of the points, world space
+
+    struct Stage {
+        std::string name;
+        double seconds;
+    };
+    std::vector<Stage> stages; ///< wall time, in the order of work
+};
+
+/// @brief Mesh the inside of a sparse volume with tetrahedra.
+/// @param grid         FloatGrid or DoubleGrid with an affine transform. Signs are read from the values; the
+///                     active mask is not consulted.
+/// @param sink         receives exact totals, then the mesh in chunks of bounded size, in world space
+/// @param options      see Options
+/// @param interrupter  may be null; when it says stop, the run returns early with Report::cancelled set, and
+///                     the sink's end() is not called
+/// @details Runs on the caller's tbb::task_arena; the mesh is the same, bit for bit, for any number of
+/// threads. Memory grows with the surface, not with the volume or its bounding box.
+/// @throw BadOption, UnsupportedGrid, BadValue, NoSurface, UnboundedInside, TooLarge, and whatever the sink
+/// throws
+template <typename GridT>
+Report volumeToTets(const GridT& grid, MeshSink& sink, const Options& options = {},
+                    openvdb::util::NullInterrupter* interrupter = nullptr);
+
+/// The same for a grid whose type is known at run time only; anything but FloatGrid and DoubleGrid throws
+/// UnsupportedGrid.
+Report volumeToTets(const openvdb::GridBase& grid, MeshSink& sink, const Options& options = {},
+                    openvdb::util::NullInterrupter* interrupter = nullptr);
+
+extern template Report volumeToTets(const openvdb::FloatGrid&, MeshSink&, const Options&,
+                                    openvdb::util::NullInterrupter*);
+extern template Report volumeToTets(const openvdb::DoubleGrid&, MeshSink&, const Options&,
+                                    openvdb::util::NullInterrupter*);
+
+} // namespace vdbtet

@@ -1,0 +1,139 @@
+#include "Pipeline.h"
+
+#include "cuts/Cuts.h"
+#include "destinations/Destinations.h"
+#include "emit/Emit.h"
+#include "emit/Measure.h"
+#include "flips/Flips.h"
+#include "labels/Labels.h"
+#include "numbering/Numbering.h"
+#include "tiles/Layout.h"
+
+#include <vdbtet/Errors.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace vdbtet {
+
+namespace {
+
+/// Tells the interrupter's host when the work starts and ends.
+class Session {
+public:
+    explicit Session(openvdb::util::NullInterrupter* interrupter) : mInterrupter(interrupter) {
+        if (mInterrupter) mInterrupter->start("Meshing volume with tetrahedra");
+    }
+    ~Session() {
+        if (mInterrupter) mInterrupter->end();
+    }
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+private:
+    openvdb::util::NullInterrupter* mInterrupter;
+};
+
+/// The largest distance between neighbouring numbers of @a digits mantissa bits up to @a magnitude, as a
+/// fraction of @a spacing.
+double roundingStep(double magnitude, int digits, double spacing) {
+    return std::ldexp(1.0, std::ilogb(magnitude) + 1 - digits) / spacing;
+}
+
+MeshTotals totalsOf(const Numbering& numbering, const Measure& measure, const Frame& frame) {
+    // A dihedral angle turns by at most about 35 times the relative error of its vertices: two faces, each
+    // tilted by the errors of its three vertices over heights that the angle bounds keep above c / 6.
+    constexpr double kRadiansPerError = 35.0;
+    constexpr double kNegligible = 0.01 / 57.29577951308232; // 0.01 degrees
+    MeshTotals totals;
+    totals.points = numbering.points();
+    totals.tets = measure.tets();
+    totals.bounds = measure.bounds;
+    if (totals.points == 0) return totals;
+    double magnitude = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        magnitude =
+            std::max({magnitude, std::abs(measure.bounds.min()[axis]), std::abs(measure.bounds.max()[axis])});
+    }
+    const auto turn = [&](int digits) {
+        return kRadiansPerError * 0.5 * roundingStep(magnitude, digits, frame.spacing);
+    };
+    constexpr double kMaxFloat = 1e38, kMinFloat = 1e-30;
+    totals.float32Suffices = turn(24) <= kNegligible && magnitude < kMaxFloat && frame.spacing > kMinFloat;
+    if (!(turn(53) <= kNegligible)) {
+        throw TooLarge(
+            "the grid lies so far from the world's origin that double precision cannot resolve its lattice; "
+            "move it nearer, or use a coarser spacing");
+    }
+    return totals;
+}
+
+} // namespace
+
+void runPipeline(const Field& field, const Frame& frame, const Options& options, MeshSink& sink,
+                 openvdb::util::NullInterrupter* interrupter, Report& report) {
+    const Session session(interrupter);
+    Interrupt interrupt(interrupter);
+    const auto stage = [&](const char* name, auto&& work) {
+        const auto start = std::chrono::steady_clock::now();
+        auto product = work();
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+        report.stages.push_back({name, elapsed.count()});
+        report.cancelled = interrupt.poll();
+        return product;
+    };
+
+    auto tiles = stage("tiles", [&] { return field.surfaceTiles(options.maxSurfaceTiles); });
+    if (report.cancelled) return;
+    const auto signs = stage("signs", [&] { return findSigns(field, tiles, interrupt); });
+    if (report.cancelled) return;
+    const Layout layout = stage("layout", [&] { return makeLayout(std::move(tiles), signs, interrupt); });
+    if (report.cancelled) return;
+    report.surfaceTiles = std::int64_t(layout.surfaceTiles.size());
+    const Cuts cuts = stage("cuts", [&] { return findCuts(field, layout, signs, interrupt); });
+    if (report.cancelled) return;
+    report.cutEdges = cuts.count();
+    if (cuts.count() == 0)
+        throw NoSurface("no value crosses the isovalue at this spacing, so there is nothing to mesh");
+    const Labels labels = stage("labels", [&] { return labelVertices(layout, cuts, interrupt); });
+    if (report.cancelled) return;
+    report.backLabelled = labels.backLabelled;
+    report.tieBroken = labels.tieBroken;
+    const Destinations destinations =
+        stage("destinations", [&] { return findDestinations(layout, cuts, labels, interrupt); });
+    if (report.cancelled) return;
+
+    const Vertices vertices{layout, signs, labels, destinations};
+    const Flips flips = stage("flips", [&] { return chooseFlips(vertices, options.tiger, interrupt); });
+    if (report.cancelled) return;
+    report.activeFlips = flips.active;
+    report.extraFlips = flips.extra;
+    report.lastResortFlips = flips.lastResort;
+    report.conflicts = flips.conflicts;
+    const Numbering numbering = stage("numbering", [&] { return numberVertices(vertices, interrupt); });
+    if (report.cancelled) return;
+    const Measure measure =
+        stage("measure", [&] { return measureMesh(vertices, flips, numbering, frame, interrupt); });
+    if (report.cancelled) return;
+    report.points = numbering.points();
+    report.tets = measure.tets();
+    report.boundaryTriangles = measure.boundaryTriangles;
+    report.ambiguous = measure.ambiguous;
+    report.angles = measure.angles;
+    report.bounds = measure.bounds;
+    // Theorem 3; where Algorithm 5 met no conflict the resolution sufficed.
+    const bool resolved = options.tiger >= 2 && flips.conflicts == 0;
+    report.angleMin = resolved ? 11.47 : 8.54;
+    report.angleMax = resolved ? 157.59 : 164.18;
+
+    stage("emit", [&] {
+        if (sink.begin(totalsOf(numbering, measure, frame))) {
+            emitMesh(vertices, flips, numbering, measure, frame, sink, interrupt);
+        }
+        if (!interrupt.stopped()) sink.end();
+        return 0;
+    });
+}
+
+} // namespace vdbtet

@@ -1,0 +1,114 @@
+#include <vdbtet/VolumeToTets.h>
+
+#include <vdbtet/Errors.h>
+
+#include "Pipeline.h"
+#include "field/GridField.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace vdbtet {
+
+namespace {
+
+std::string quoted(const openvdb::GridBase& grid) {
+    return grid.getName().empty() ? std::string("the unnamed grid") : "grid '" + grid.getName() + "'";
+}
+
+/// Tiles are numbered in 32 bits; that many would take 3 TB.
+constexpr std::int64_t kMostSurfaceTiles = std::int64_t(1) << 30;
+
+void checkOptions(const Options& options) {
+    if (options.tiger != 1 && options.tiger != 2) throw BadOption("the TIGER version must be 1 or 2");
+    if (options.isovalue && !std::isfinite(*options.isovalue))
+        throw BadOption("the isovalue must be a finite number");
+    if (options.maxSurfaceTiles < 1 || options.maxSurfaceTiles > kMostSurfaceTiles) {
+        throw BadOption("the limit on surface tiles must be from 1 to 2^30");
+    }
+}
+
+/// What kind of field the grid holds: the isovalue, and on which side of it the inside lies.
+Level chooseLevel(const openvdb::GridBase& grid, double background, const Options& options, Report& report) {
+    const openvdb::GridClass gridClass = grid.getGridClass();
+    const bool levelSet = gridClass == openvdb::GRID_LEVEL_SET, fog = gridClass == openvdb::GRID_FOG_VOLUME;
+    Level level;
+    level.isovalue = options.isovalue.value_or(levelSet || (!fog && background > 0.0) ? 0.0 : 0.5);
+
+    std::ostringstream why;
+    if (options.inside != Inside::Automatic) {
+        level.insideIsBelow = options.inside == Inside::Below;
+        why << "as asked";
+    } else if (levelSet || fog) {
+        level.insideIsBelow = levelSet;
+        why << (levelSet ? "level set" : "fog volume");
+    } else {
+        level.insideIsBelow = background > level.isovalue;
+        why << "class '" << openvdb::GridBase::gridClassToString(gridClass) << "', and the background "
+            << background << " is " << (level.insideIsBelow ? "above" : "not above");
+    }
+    std::ostringstream rule;
+    rule << "inside is " << (level.insideIsBelow ? "< " : "> ") << level.isovalue << " (" << why.str() << ")";
+    report.isovalue = level.isovalue;
+    report.inside = level.insideIsBelow ? Inside::Below : Inside::Above;
+    report.insideRule = rule.str();
+    if (level.phi(background) >= 0.0) {
+        std::ostringstream message;
+        message << "the background value " << background
+                << " lies inside, so the inside has no end: " << report.insideRule
+                << "; choose another isovalue, or mesh the other side";
+        throw UnboundedInside(message.str());
+    }
+    return level;
+}
+
+template <typename GridT>
+Report meshGrid(const GridT& grid, MeshSink& sink, const Options& options,
+                openvdb::util::NullInterrupter* interrupter) {
+    checkOptions(options);
+    Report report;
+    report.gridName = grid.getName();
+    report.tiger = options.tiger;
+    report.voxelSize = shortestVoxelEdge(grid.transform());
+    report.spacing = options.spacing.value_or(options.voxels * report.voxelSize);
+    const Frame frame = makeFrame(grid.transform(), report.spacing);
+    const Level level = chooseLevel(grid, double(grid.background()), options, report);
+    const GridField<GridT> field(grid, frame, level);
+    runPipeline(field, frame, options, sink, interrupter, report);
+    return report;
+}
+
+} // namespace
+
+/// Run, naming the grid in whatever this library has to say against it.
+template <typename GridT>
+Report volumeToTets(const GridT& grid, MeshSink& sink, const Options& options,
+                    openvdb::util::NullInterrupter* interrupter) {
+    try {
+        return meshGrid(grid, sink, options, interrupter);
+    } catch (const FileError&) {
+        throw; // a sink's, and about its file
+    } catch (Error& error) {
+        error.prefix(quoted(grid));
+        throw;
+    }
+}
+
+template Report volumeToTets(const openvdb::FloatGrid&, MeshSink&, const Options&,
+                             openvdb::util::NullInterrupter*);
+template Report volumeToTets(const openvdb::DoubleGrid&, MeshSink&, const Options&,
+                             openvdb::util::NullInterrupter*);
+
+Report volumeToTets(const openvdb::GridBase& grid, MeshSink& sink, const Options& options,
+                    openvdb::util::NullInterrupter* interrupter) {
+    if (const auto* floats = dynamic_cast<const openvdb::FloatGrid*>(&grid)) {
+        return volumeToTets(*floats, sink, options, interrupter);
+    }
+    if (const auto* doubles = dynamic_cast<const openvdb::DoubleGrid*>(&grid)) {
+        return volumeToTets(*doubles, sink, options, interrupter);
+    }
+    throw UnsupportedGrid(quoted(grid) + ": a grid of type " + grid.type() +
+                          " cannot be meshed; only float and double grids can");
+}
+
+} // namespace vdbtet

@@ -1,0 +1,140 @@
+/// @file TileMask.h
+/// One bit for each of the 8 x 8 x 8 vertices of a tile, and the same mask with a border of one vertex.
+///
+/// A bit's number is x<<6 | y<<3 | z, as in a VDB leaf: a word is an x-slab, a byte a z-row.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace vdbtet {
+
+inline int countBits(std::uint64_t word) { return __builtin_popcountll(word); }
+inline int lowestBit(std::uint64_t word) { return __builtin_ctzll(word); }
+
+struct TileMask {
+    static constexpr int kDim = 8;
+    static constexpr int kSize = kDim * kDim * kDim;
+
+    std::array<std::uint64_t, kDim> words{};
+
+    static constexpr int bit(int x, int y, int z) { return x << 6 | y << 3 | z; }
+    static TileMask filled(bool on) {
+        TileMask mask;
+        mask.words.fill(on ? ~std::uint64_t(0) : 0);
+        return mask;
+    }
+
+    bool test(int n) const { return words[n >> 6] >> (n & 63) & 1; }
+    void set(int n) { words[n >> 6] |= std::uint64_t(1) << (n & 63); }
+    void reset(int n) { words[n >> 6] &= ~(std::uint64_t(1) << (n & 63)); }
+
+    bool any() const {
+        std::uint64_t all = 0;
+        for (auto word : words) all |= word;
+        return all != 0;
+    }
+    bool full() const {
+        std::uint64_t all = ~std::uint64_t(0);
+        for (auto word : words) all &= word;
+        return ~all == 0;
+    }
+    int count() const {
+        int sum = 0;
+        for (auto word : words) sum += countBits(word);
+        return sum;
+    }
+    /// @return how many bits below bit @a n are set.
+    int rank(int n) const {
+        int sum = 0;
+        for (int w = 0; w < n >> 6; ++w) sum += countBits(words[w]);
+        return sum + countBits(words[n >> 6] & ((std::uint64_t(1) << (n & 63)) - 1));
+    }
+
+    /// Call @a visit(n) for each set bit, in ascending order.
+    template <typename Visit>
+    void forEach(Visit&& visit) const {
+        for (int w = 0; w < kDim; ++w) {
+            for (std::uint64_t word = words[w]; word != 0; word &= word - 1) visit(w << 6 | lowestBit(word));
+        }
+    }
+
+    TileMask& operator&=(const TileMask& o) {
+        for (int w = 0; w < kDim; ++w) words[w] &= o.words[w];
+        return *this;
+    }
+    TileMask& operator|=(const TileMask& o) {
+        for (int w = 0; w < kDim; ++w) words[w] |= o.words[w];
+        return *this;
+    }
+    TileMask& operator^=(const TileMask& o) {
+        for (int w = 0; w < kDim; ++w) words[w] ^= o.words[w];
+        return *this;
+    }
+    friend TileMask operator&(TileMask a, const TileMask& b) { return a &= b; }
+    friend TileMask operator|(TileMask a, const TileMask& b) { return a |= b; }
+    friend TileMask operator^(TileMask a, const TileMask& b) { return a ^= b; }
+    friend TileMask operator~(TileMask a) {
+        for (auto& word : a.words) word = ~word;
+        return a;
+    }
+    friend bool operator==(const TileMask& a, const TileMask& b) { return a.words == b.words; }
+    friend bool operator!=(const TileMask& a, const TileMask& b) { return !(a == b); }
+};
+
+/// @return the number from 0 to 26 of the neighbour tile in direction (dx,dy,dz), each in -1..1; 13 is the
+/// tile itself.
+constexpr int neighbourSlot(int dx, int dy, int dz) { return (dx + 1) * 9 + (dy + 1) * 3 + (dz + 1); }
+
+/// The tile step (-1, 0 or 1) to the tile that holds local coordinate @a x in -8..15.
+constexpr int tileStep(int x) { return x < 0 ? -1 : x > 7 ? 1 : 0; }
+
+/// A tile's mask with the bits of its 26 neighbours around it: coordinates -1 to 8.
+class PaddedMask {
+public:
+    PaddedMask() = default;
+
+    /// @param masks  the 27 masks by neighbourSlot()
+    explicit PaddedMask(const std::array<const TileMask*, 27>& masks) {
+        for (int x = -1; x <= 8; ++x) {
+            for (int y = -1; y <= 8; ++y) {
+                const int slot = neighbourSlot(tileStep(x), tileStep(y), 0);
+                auto row = [&](int dz) {
+                    return unsigned(masks[slot + dz]->words[x & 7] >> ((y & 7) * 8) & 0xff);
+                };
+                mRows[x + 1][y + 1] = std::uint16_t(row(-1) >> 7 | row(0) << 1 | (row(1) & 1) << 9);
+            }
+        }
+    }
+
+    bool test(int x, int y, int z) const { return mRows[x + 1][y + 1] >> (z + 1) & 1; }
+
+    /// Clear the bits that are set in @a o.
+    PaddedMask& subtract(const PaddedMask& o) {
+        for (int x = 0; x < 10; ++x) {
+            for (int y = 0; y < 10; ++y) mRows[x][y] &= std::uint16_t(~o.mRows[x][y]);
+        }
+        return *this;
+    }
+
+    /// @return the bits -1 to 8 of the z-row at (@a x, @a y), the lowest bit being z = -1.
+    unsigned row(int x, int y) const { return mRows[x + 1][y + 1]; }
+
+    /// @return the mask whose bit (x,y,z) is this one's bit (x+dx, y+dy, z+dz); each step in -1..1.
+    TileMask shifted(int dx, int dy, int dz) const {
+        TileMask mask;
+        for (int x = 0; x < 8; ++x) {
+            std::uint64_t word = 0;
+            for (int y = 0; y < 8; ++y) {
+                word |= std::uint64_t(mRows[x + 1 + dx][y + 1 + dy] >> (1 + dz) & 0xff) << (8 * y);
+            }
+            mask.words[x] = word;
+        }
+        return mask;
+    }
+
+private:
+    std::uint16_t mRows[10][10] = {};
+};
+
+} // namespace vdbtet

@@ -1,0 +1,202 @@
+#include "flips/Flips.h"
+
+#include <vdbtet/Quality.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace vdbtet {
+
+using openvdb::Vec3d;
+
+namespace {
+
+constexpr double kMinAngle = 11.47;  // degrees; the policy of Algorithm 4
+constexpr double kTieAngle = 1e-6;   // degrees; a difference below this is rounding
+constexpr double kExtremeMove = 0.3; // of a short edge; Algorithm 5
+
+/// How good the tets of a slice are that will be in the mesh.
+struct SliceQuality {
+    bool inverted = false;
+    double min = 180.0, max = 0.0;
+};
+
+SliceQuality sliceQuality(const LocalVertices& vertices, const LocalOctahedron& octahedron,
+                          bcc::Slice slice) {
+    SliceQuality quality;
+    for (const auto& tet : bcc::kSliceTets[slice]) {
+        int manifold = 0;
+        bool outside = false;
+        const Vec3d* p[4];
+        for (int i = 0; i < 4; ++i) {
+            const int local = octahedron[tet[i]];
+            p[i] = &vertices.position(local);
+            manifold += vertices.manifold(local);
+            outside = outside || vertices.state(local) == State::Outside;
+        }
+        if (outside || manifold == 4) continue;
+        // An inverted tet can show fine angles by the unsigned formula.
+        if (signedVolume6(*p[0], *p[1], *p[2], *p[3]) <= 0.0) quality.inverted = true;
+        for (double angle : dihedralAngles(*p[0], *p[1], *p[2], *p[3])) {
+            quality.min = std::min(quality.min, angle);
+            quality.max = std::max(quality.max, angle);
+        }
+    }
+    return quality;
+}
+
+/// The policy of Algorithm 4, made safe against inverted tets and rounding.
+bool better(const SliceQuality& a, const SliceQuality& b) {
+    if (a.inverted != b.inverted) return b.inverted;
+    const bool sameMin = std::abs(a.min - b.min) <= kTieAngle, sameMax = std::abs(a.max - b.max) <= kTieAngle;
+    if (a.min > kMinAngle && b.min > kMinAngle) return sameMax ? !sameMin && a.min > b.min : a.max < b.max;
+    return sameMin ? !sameMax && a.max < b.max : a.min > b.min;
+}
+
+/// @return the fraction of a short edge that a manifold vertex moves if that is along the short edge vector
+/// @a along, else 0.
+double moveAlong(const LocalVertices& vertices, int local, const Vec3d& along) {
+    const Vec3d move = vertices.move(local);
+    double least = 1.0;
+    for (int axis = 0; axis < 3; ++axis) least = std::min(least, move[axis] * along[axis]);
+    // The components of the edge are +-1/2, those of a move by alpha +-alpha/2.
+    return std::max(0.0, 4.0 * least);
+}
+
+/// @return the fraction of a short edge that a manifold vertex moves, whichever way.
+double moveLength(const LocalVertices& vertices, int local) {
+    return vertices.move(local).length() * 2.0 / std::sqrt(3.0);
+}
+
+} // namespace
+
+bcc::Slice chooseActiveSlice(const LocalVertices& vertices, const LocalOctahedron& octahedron) {
+    return better(sliceQuality(vertices, octahedron, bcc::SliceB),
+                  sliceQuality(vertices, octahedron, bcc::SliceA))
+               ? bcc::SliceB
+               : bcc::SliceA;
+}
+
+ExtraFlip chooseExtraSlice(const LocalVertices& vertices, const LocalOctahedron& octahedron) {
+    ExtraFlip flip;
+    // v2 is the manifold end. Where it is the lower one the figure is seen in a mirror, which swaps its two
+    // cases and nothing else.
+    const bool reversed = vertices.manifold(octahedron[0]);
+    const int v1 = octahedron[reversed ? 1 : 0], v2 = octahedron[reversed ? 0 : 1];
+    if (vertices.state(v1) != State::Inside || !vertices.manifold(v2)) return flip;
+
+    const Vec3d at2 = LocalVertices::home(v2);
+    for (int k = 0; k < 4; ++k) {
+        const auto ring = [&](int i) { return octahedron[2 + (k + i) % 4]; };
+        const int v3 = ring(0), v4 = ring(1), v5 = ring(2), v6 = ring(3);
+        if (!vertices.manifold(v3) || !vertices.manifold(v4)) continue;
+        if (moveAlong(vertices, v3, at2 - LocalVertices::home(v4)) < kExtremeMove) continue;
+        if (moveAlong(vertices, v4, at2 - LocalVertices::home(v3)) < kExtremeMove) continue;
+        const bool from5 = moveAlong(vertices, v2, at2 - LocalVertices::home(v5)) >= kExtremeMove;
+        const bool from6 = moveAlong(vertices, v2, at2 - LocalVertices::home(v6)) >= kExtremeMove;
+        if (!from5 && !from6) continue;
+
+        flip.matches = true;
+        const bool manifold5 = vertices.manifold(v5), manifold6 = vertices.manifold(v6);
+        flip.conflict = manifold5 || manifold6;
+        if (!flip.conflict) {
+            // The new edge ends at v5 or v6, of which v5 is the (k+2)-th of the ring.
+            flip.slice = (k % 2 == 0) == from5 ? bcc::SliceA : bcc::SliceB;
+        } else if (!(manifold5 && manifold6) && moveLength(vertices, manifold5 ? v5 : v6) < kExtremeMove) {
+            // So short a move rules out that the edge (v5,v6) wants a flip as well.
+            SliceQuality best = sliceQuality(vertices, octahedron, bcc::S);
+            for (bcc::Slice slice : {bcc::SliceA, bcc::SliceB}) {
+                const SliceQuality quality = sliceQuality(vertices, octahedron, slice);
+                if (better(quality, best)) {
+                    best = quality;
+                    flip.slice = slice;
+                }
+            }
+        }
+        return flip; // v4 cannot move two ways, so no other pair matches
+    }
+    return flip;
+}
+
+namespace {
+
+/// The spines of a tile that a flip may concern.
+struct Candidates {
+    TileMask active[2][3];
+    TileMask extra[2][3];
+    bool any = false;
+};
+
+Candidates findCandidates(const Vertices& vertices, TileRef tile, bool withExtra) {
+    Candidates candidates;
+    const Surroundings around(vertices.layout.neighbours[tile]);
+    for (int lattice = 0; lattice < 2; ++lattice) {
+        const PaddedMask inside = around.signs(vertices.signs, lattice);
+        const PaddedMask manifold = around.masks(vertices.labels.manifold, lattice);
+        const TileMask in1 = inside.shifted(0, 0, 0), on1 = manifold.shifted(0, 0, 0);
+        for (int axis = 0; axis < 3; ++axis) {
+            const TileMask in2 = inside.shifted(axis == 0, axis == 1, axis == 2);
+            const TileMask on2 = manifold.shifted(axis == 0, axis == 1, axis == 2);
+            candidates.active[lattice][axis] = (in1 ^ in2) & ~on1 & ~on2;
+            candidates.any = candidates.any || candidates.active[lattice][axis].any();
+            if (!withExtra) continue;
+            candidates.extra[lattice][axis] = (in1 & ~on1 & on2) | (on1 & in2 & ~on2);
+            candidates.any = candidates.any || candidates.extra[lattice][axis].any();
+        }
+    }
+    return candidates;
+}
+
+struct FlipCounts {
+    std::int64_t active = 0, extra = 0, lastResort = 0, conflicts = 0;
+};
+
+void flipTile(const Candidates& candidates, const LocalVertices& local, TileFlips& flips,
+              FlipCounts& counts) {
+    for (bcc::Lattice lattice : {bcc::A, bcc::B}) {
+        for (int axis = 0; axis < 3; ++axis) {
+            auto& slices = flips[lattice][axis];
+            candidates.active[lattice][axis].forEach([&](int n) {
+                const bcc::Slice slice =
+                    chooseActiveSlice(local, localOctahedron(lattice, axis, localIndex(lattice, n)));
+                slices[slice - bcc::SliceA].set(n);
+                ++counts.active;
+            });
+            candidates.extra[lattice][axis].forEach([&](int n) {
+                const ExtraFlip flip =
+                    chooseExtraSlice(local, localOctahedron(lattice, axis, localIndex(lattice, n)));
+                counts.conflicts += flip.conflict;
+                if (flip.slice == bcc::S) return;
+                slices[flip.slice - bcc::SliceA].set(n);
+                ++(flip.conflict ? counts.lastResort : counts.extra);
+            });
+        }
+    }
+}
+
+} // namespace
+
+Flips chooseFlips(const Vertices& vertices, int version, Interrupt& interrupt) {
+    const std::int64_t tiles = std::int64_t(vertices.layout.surfaceTiles.size());
+    Flips flips;
+    flips.tiles.resize(tiles);
+    std::vector<FlipCounts> counts(tiles);
+    parallelRanges(tiles, interrupt, [&](std::int64_t begin, std::int64_t end) {
+        LocalVertices local;
+        for (std::int64_t t = begin; t < end; ++t) {
+            const Candidates candidates = findCandidates(vertices, TileRef(t), version >= 2);
+            if (!candidates.any) continue;
+            local.load(vertices, TileRef(t));
+            flipTile(candidates, local, flips.tiles[t], counts[t]);
+        }
+    });
+    for (const FlipCounts& c : counts) {
+        flips.active += c.active;
+        flips.extra += c.extra;
+        flips.lastResort += c.lastResort;
+        flips.conflicts += c.conflicts;
+    }
+    return flips;
+}
+
+} // namespace vdbtet

@@ -1,0 +1,50 @@
+/// @file Flips.h
+/// Which octahedra are cut along a diagonal of their ring instead of their spine (paper, sections 4.4
+/// and 6.2).
+#pragma once
+
+#include "Parallel.h"
+#include "bcc/Lattice.h"
+#include "destinations/LocalVertices.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace vdbtet {
+
+/// The flipped spines of a tile, by lattice, axis and slice (0 for A, 1 for B), at their lower ends.
+using TileFlips = std::array<std::array<std::array<TileMask, 2>, 3>, 2>;
+
+struct Flips {
+    std::vector<TileFlips> tiles; ///< of each surface tile
+
+    std::int64_t active = 0;     ///< flipped by Algorithm 4
+    std::int64_t extra = 0;      ///< flipped by Algorithm 5
+    std::int64_t lastResort = 0; ///< of the conflicts, those flipped
+    std::int64_t conflicts = 0;  ///< octahedra of Algorithm 5 with another manifold vertex
+};
+
+/// @brief Choose all flips.
+/// @param version  1 for Algorithm 4 alone, 2 for Algorithm 5 too
+/// @details No two flipped octahedra share a tet (Propositions 5 to 7), so each is chosen alone.
+Flips chooseFlips(const Vertices& vertices, int version, Interrupt& interrupt);
+
+/// What Algorithm 5 finds in one octahedron.
+struct ExtraFlip {
+    bool matches = false;  ///< the directions and lengths of Figure 10, v1 being inside
+    bool conflict = false; ///< and a further vertex is manifold
+    bcc::Slice slice = bcc::S;
+};
+
+/// @brief Algorithm 4: the slice of an octahedron whose spine joins an inside and an outside vertex.
+/// @details Decides by the two tets at the inside end alone. Ties within 1e-6 degrees go to the other
+/// criterion, then to slice A.
+bcc::Slice chooseActiveSlice(const LocalVertices& vertices, const LocalOctahedron& octahedron);
+
+/// @brief Algorithm 5 with the last resort of section 6.2.2.
+/// @details The slice is the one whose new edge ends where v2 moves away from: A in case 1, B in case 2 of
+/// Figure 10.
+ExtraFlip chooseExtraSlice(const LocalVertices& vertices, const LocalOctahedron& octahedron);
+
+} // namespace vdbtet

@@ -1,0 +1,38 @@
+/// @file OutputFile.h
+/// A file that is written beside its target and takes the target's place only when it is whole.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace vdbtet {
+
+/// @brief Owns a temporary file in the target's directory; commit() renames it, the destructor removes it.
+/// @details A target that is a symbolic link stays one: the file it points to is replaced. The new file has
+/// the old one's permissions, or those the umask grants. Whoever opens the target meanwhile sees the old
+/// file. commit() does not wait for the disk: the promise holds when the program dies, not when the machine
+/// does. Every member but the destructor throws FileError with the target's path.
+class OutputFile {
+public:
+    /// @throw FileError also when the target exists and is not a regular file, or may not be written
+    explicit OutputFile(const std::string& path);
+    ~OutputFile();
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
+
+    /// Take @a size bytes of disk space, so that a full disk shows before the work rather than after.
+    void reserve(std::uint64_t size);
+    void writeAt(std::uint64_t offset, const void* data, std::size_t size);
+    void commit();
+
+private:
+    [[noreturn]] void fail(int error) const;
+
+    std::string mPath;
+    std::string mTarget;    // mPath with the links followed
+    std::string mTemporary; // empty once committed
+    int mFd = -1;
+};
+
+} // namespace vdbtet

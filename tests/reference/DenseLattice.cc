@@ -1,0 +1,91 @@
+// Step 1 of Algorithm 1: signs and cut points, by plain bisection.
+#include "reference/DenseLattice.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace vdbtet::test {
+
+namespace {
+
+constexpr double kUncut = std::numeric_limits<double>::infinity();
+constexpr int kProbes = 64;
+
+} // namespace
+
+DenseLattice::DenseLattice(const openvdb::CoordBBox& box, const Phi& phi) {
+    for (int axis = 0; axis < 3; ++axis) {
+        mOrigin[axis] = 2 * box.min()[axis];
+        mCount[axis] = std::size_t(2 * (box.max()[axis] - box.min()[axis]) + 1);
+    }
+    const std::size_t count = mCount[0] * mCount[1] * mCount[2];
+    mInside.resize(count);
+    std::array<double, kDirections> uncut;
+    uncut.fill(kUncut);
+    mCut.resize(count, uncut);
+
+    for (Vertex v = 0; v < count; ++v) {
+        const LatticePoint p = point(v);
+        const int odd = (p[0] & 1) + (p[1] & 1) + (p[2] & 1);
+        if (odd != 0 && odd != 3) continue;
+        (odd == 0 ? mA : mB).push_back(v);
+        mInside[v] = phi(Vec3d(p) * 0.5) >= 0;
+        for (int axis = 0; axis < 3 && mInside[v]; ++axis) {
+            const int layer = p[axis] - mOrigin[axis];
+            if (layer < 4 || layer > int(mCount[axis]) - 5)
+                throw std::logic_error("the reference mesher's box is too tight");
+        }
+    }
+    for (const Vertex a : mA)
+        for (int d = 0; d < kDirections; ++d)
+            if (holds(point(a) + directionVector(d))) cutEdge(a, d, phi);
+}
+
+bool DenseLattice::holds(const LatticePoint& p) const {
+    for (int axis = 0; axis < 3; ++axis)
+        if (p[axis] < mOrigin[axis] || p[axis] >= mOrigin[axis] + int(mCount[axis])) return false;
+    return true;
+}
+
+Vertex DenseLattice::vertex(const LatticePoint& p) const {
+    const LatticePoint q = p - mOrigin;
+    return (std::size_t(q[0]) * mCount[1] + std::size_t(q[1])) * mCount[2] + std::size_t(q[2]);
+}
+
+LatticePoint DenseLattice::point(Vertex v) const {
+    const std::size_t z = v % mCount[2], y = v / mCount[2] % mCount[1], x = v / mCount[2] / mCount[1];
+    return mOrigin + LatticePoint(int(x), int(y), int(z));
+}
+
+Vertex DenseLattice::neighbour(Vertex v, int direction) const {
+    return vertex(point(v) + directionVector(direction));
+}
+
+void DenseLattice::cutEdge(Vertex a, int direction, const Phi& phi) {
+    const Vertex b = neighbour(a, direction);
+    if (mInside[a] == mInside[b]) return;
+    const Vec3d from = Vec3d(point(a)) * 0.5, along = Vec3d(directionVector(direction)) * 0.5;
+    const auto insideAt = [&](double t) { return phi(from + t * along) >= 0; };
+
+    double lo = 0, hi = 1;
+    for (int i = 0; i < 60; ++i) {
+        const double mid = 0.5 * (lo + hi);
+        (insideAt(mid) == mInside[a] ? lo : hi) = mid;
+    }
+    const double t = 0.5 * (lo + hi);
+    mCut[a][direction] = t;
+    mCut[b][opposite(direction)] = 1 - t;
+
+    int changes = 0;
+    bool last = mInside[a];
+    for (int i = 1; i <= kProbes; ++i) {
+        const bool now = i == kProbes ? mInside[b] : insideAt(double(i) / kProbes);
+        changes += now != last;
+        last = now;
+    }
+    manyRoots += changes > 1;
+    halfTies += std::abs(t - 0.5) < 1e-9;
+}
+
+} // namespace vdbtet::test

@@ -1,0 +1,68 @@
+/// @file DenseLattice.h
+/// A box of the BCC lattice, every vertex with its sign and every cut short edge with its cut point (paper,
+/// sections 2.1 to 2.4).
+#pragma once
+
+#include <openvdb/openvdb.h>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace vdbtet::test {
+
+using openvdb::Vec3d;
+
+/// A scalar function of lattice coordinates, >= 0 inside. L_A is the integer points.
+using Phi = std::function<double(const Vec3d&)>;
+
+/// A vertex in doubled lattice coordinates: all even in L_A, all odd in L_B.
+using LatticePoint = openvdb::Vec3i;
+
+/// A vertex by its place in the dense arrays, in which the points of neither lattice stay unused.
+using Vertex = std::size_t;
+
+constexpr int kDirections = 8;
+
+/// The short edge directions by number: 4, 2 and 1 stand for +x, +y and +z.
+inline LatticePoint directionVector(int d) { return {d & 4 ? 1 : -1, d & 2 ? 1 : -1, d & 1 ? 1 : -1}; }
+inline int directionNumber(const LatticePoint& v) { return 4 * (v[0] > 0) + 2 * (v[1] > 0) + (v[2] > 0); }
+inline int opposite(int d) { return 7 - d; }
+
+class DenseLattice {
+public:
+    /// @param box  L_A points, inclusive. The two outermost layers must be outside.
+    DenseLattice(const openvdb::CoordBBox& box, const Phi& phi);
+
+    std::size_t size() const { return mInside.size(); }
+    bool holds(const LatticePoint& p) const;
+    Vertex vertex(const LatticePoint& p) const;
+    LatticePoint point(Vertex v) const;
+    Vertex neighbour(Vertex v, int direction) const;
+
+    const std::vector<Vertex>& verticesA() const { return mA; }
+    const std::vector<Vertex>& verticesB() const { return mB; }
+
+    bool inside(Vertex v) const { return mInside[v]; }
+    /// Distance from v to the cut point of a short edge, in short edges; infinite where it is not cut (eq.
+    /// 3).
+    double cutDistance(Vertex v, int direction) const { return mCut[v][direction]; }
+    bool isCut(Vertex v, int direction) const { return mCut[v][direction] <= 1; }
+
+    /// Cut edges on which phi changes its sign more than once, so that the cut point is a matter of choice.
+    std::int64_t manyRoots = 0;
+    /// Cut edges whose cut point is within 1e-9 of the middle, so that the nearer end is.
+    std::int64_t halfTies = 0;
+
+private:
+    void cutEdge(Vertex a, int direction, const Phi& phi);
+
+    LatticePoint mOrigin;
+    std::array<std::size_t, 3> mCount;
+    std::vector<Vertex> mA, mB;
+    std::vector<bool> mInside;
+    std::vector<std::array<double, kDirections>> mCut;
+};
+
+} // namespace vdbtet::test

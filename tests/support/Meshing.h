@@ -1,0 +1,28 @@
+/// @file Meshing.h
+/// A mesh together with the report of its run.
+#pragma once
+
+#include <vdbtet/TetMesh.h>
+#include <vdbtet/VolumeToTets.h>
+
+namespace vdbtet::test {
+
+struct Meshed {
+    TetMesh mesh;
+    Report report;
+};
+
+inline Meshed meshOf(const openvdb::GridBase& grid, const Options& options = {}) {
+    Meshed result;
+    result.report = volumeToTets(grid, result.mesh, options);
+    return result;
+}
+
+inline Options atVoxels(double voxels, int tiger = 2) {
+    Options options;
+    options.voxels = voxels;
+    options.tiger = tiger;
+    return options;
+}
+
+} // namespace vdbtet::test

@@ -1,0 +1,90 @@
+/// @file CommandLine.cc
+/// The options of vdb_tet, bound straight onto the library's.
+#include "CommandLine.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+#include <filesystem>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool isSameFile(const std::string& a, const std::string& b) {
+    std::error_code error;
+    if (fs::equivalent(a, b, error)) return true; // by any name, where both exist
+    return fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error) && !error;
+}
+
+void check(const CommandLine& line) {
+    if (line.out.empty() && !line.dryRun) throw UsageError("OUT.vtu is missing; --help lists the options");
+    if (!line.out.empty() && fs::path(line.out).extension() != ".vtu") {
+        throw UsageError("cannot tell the format of " + line.out + ": OUT must end in .vtu");
+    }
+    if (!line.out.empty() && isSameFile(line.in, line.out)) {
+        throw UsageError("IN and OUT are the same file: " + line.in);
+    }
+    if (!line.report.empty() && (isSameFile(line.report, line.in) || isSameFile(line.report, line.out))) {
+        throw UsageError("--report would overwrite IN or OUT: " + line.report);
+    }
+}
+
+} // namespace
+
+std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
+    CommandLine line;
+    vdbtet::Options& options = line.options;
+
+    CLI::App app("Fill an OpenVDB volume with tetrahedra of guaranteed dihedral angles.\n", "vdb_tet");
+    app.set_version_flag("--version", "vdb_tet " VDBTET_VERSION ", OpenVDB " OPENVDB_LIBRARY_VERSION_STRING);
+    app.add_option("IN.vdb", line.in, "The file that holds the volume")->required();
+    app.add_option("OUT.vtu", line.out, "The mesh to write; may be left out with --dry-run");
+    app.add_option("-n,--name", line.name,
+                   "Grid to mesh; NAME[i] for the i-th, from 0, of several grids of that name. "
+                   "Default: the only scalar grid, else the only level set")
+        ->type_name("NAME");
+    app.add_option("-i,--isovalue", options.isovalue,
+                   "Where the surface is. Default: 0 for a level set, 0.5 for a fog volume")
+        ->type_name("VALUE");
+    const std::map<std::string, vdbtet::Inside> sides = {{"auto", vdbtet::Inside::Automatic},
+                                                         {"below", vdbtet::Inside::Below},
+                                                         {"above", vdbtet::Inside::Above}};
+    app.add_option("--inside", options.inside,
+                   "Mesh where values are below or above the isovalue. Default: auto, by the grid's class")
+        ->transform(CLI::CheckedTransformer(sides).description(""))
+        ->type_name("below|above|auto");
+    auto* spacing =
+        app.add_option("-s,--spacing", options.spacing, "Length of the lattice's long edges in world units")
+            ->check(CLI::PositiveNumber.description(""))
+            ->type_name("LENGTH");
+    app.add_option("-v,--voxels", options.voxels, "The same in voxels. Default: 1")
+        ->check(CLI::PositiveNumber.description(""))
+        ->type_name("VOXELS")
+        ->excludes(spacing);
+    app.add_option("--tiger", options.tiger,
+                   "Version of the method, 1 or 2. Default: 2, with the better angles")
+        ->check(CLI::IsMember({1, 2}).description(""))
+        ->type_name("1|2");
+    app.add_option("-j,--threads", line.threads, "Threads to use. Default: 0, all")
+        ->check(CLI::Range(0, 4096).description(""))
+        ->type_name("N");
+    app.add_option("--report", line.report, "Write what was done and measured to this file")
+        ->type_name("FILE.json");
+    app.add_flag("--dry-run", line.dryRun, "Count, and say how large the file would be, but write no mesh");
+    app.add_flag("-q,--quiet", line.quiet, "Print nothing but errors");
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        fmt::print("{}", app.help());
+        return std::nullopt;
+    } catch (const CLI::CallForVersion& version) {
+        fmt::print("{}\n", version.what());
+        return std::nullopt;
+    } catch (const CLI::Error& error) {
+        throw UsageError(error.what());
+    }
+    check(line);
+    return line;
+}

@@ -1,0 +1,29 @@
+/// @file CommandLine.h
+/// What the user of vdb_tet asks for.
+#pragma once
+
+#include <vdbtet/VolumeToTets.h>
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+/// The command line makes no sense; exit code 2.
+struct UsageError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+struct CommandLine {
+    std::string in;
+    std::string out;    ///< may be empty in a dry run
+    std::string name;   ///< of the grid; empty: the only one
+    std::string report; ///< JSON file; empty: none
+    vdbtet::Options options;
+    int threads = 0; ///< 0: all
+    bool quiet = false;
+    bool dryRun = false;
+};
+
+/// @return nothing when help or the version was asked for, and has been printed
+/// @throw UsageError
+std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv);

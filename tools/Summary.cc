@@ -1,0 +1,99 @@
+/// @file Summary.cc
+/// Formatting of the summary.
+#include "Summary.h"
+
+#include <openvdb/version.h>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include <array>
+
+namespace {
+
+std::string humanSize(std::uint64_t bytes) {
+    constexpr std::array units = {"bytes", "kB", "MB", "GB", "TB"};
+    auto size = static_cast<double>(bytes);
+    std::size_t unit = 0;
+    for (; size >= 1000.0 && unit + 1 < units.size(); ++unit) size /= 1000.0;
+    return unit == 0 ? fmt::format("{} bytes", bytes) : fmt::format("{:.1f} {}", size, units[unit]);
+}
+
+const char* name(vdbtet::Inside inside) { return inside == vdbtet::Inside::Below ? "below" : "above"; }
+
+} // namespace
+
+std::string asText(const CommandLine& line, const Summary& summary) {
+    const vdbtet::Report& r = summary.report;
+    std::string text;
+    const auto add = [&text](const char* key, const std::string& value) {
+        text += fmt::format("{:<9} {}\n", key, value);
+    };
+    add("grid", fmt::format("{} ({})", r.gridName.empty() ? "unnamed" : r.gridName, summary.gridType));
+    add("inside", fmt::format("{} {:g}: {}", name(r.inside), r.isovalue, r.insideRule));
+    add("spacing",
+        fmt::format("{:g} ({:g} voxels of {:g})", r.spacing, r.spacing / r.voxelSize, r.voxelSize));
+    add("mesh",
+        fmt::format("{} points, {} tets, {} boundary triangles", r.points, r.tets, r.boundaryTriangles));
+    const auto bound = fmt::format("proven to lie between {:.2f} and {:.2f}", r.angleMin, r.angleMax);
+    add("angles", r.tets == 0
+                      ? "none"
+                      : fmt::format("{:.2f} to {:.2f} degrees; {}", r.angles.min, r.angles.max, bound));
+    add("dropped", fmt::format("{} ambiguous tets", r.ambiguous));
+    add("flips", fmt::format("{} active, {} extra, {} last resort; {} conflicts", r.activeFlips, r.extraFlips,
+                             r.lastResortFlips, r.conflicts));
+    std::string stages;
+    for (const auto& stage : r.stages) stages += fmt::format("{} {:.3f}, ", stage.name, stage.seconds);
+    add("seconds", fmt::format("{}total {:.3f}", stages, summary.seconds));
+    const std::string size = fmt::format("{} ({} bytes)", humanSize(summary.bytes), summary.bytes);
+    if (line.dryRun) {
+        add("output", fmt::format("none, as this is a dry run; it would take {}", size));
+    } else {
+        add("output", fmt::format("{}, {}", line.out, size));
+    }
+    return text;
+}
+
+std::string asJson(const CommandLine& line, const Summary& summary) {
+    const vdbtet::Report& r = summary.report;
+    nlohmann::ordered_json stages = nlohmann::ordered_json::array();
+    for (const auto& stage : r.stages) stages.push_back({{"name", stage.name}, {"seconds", stage.seconds}});
+    const auto corner = [](const openvdb::Vec3d& p) { return std::array{p[0], p[1], p[2]}; };
+    const nlohmann::ordered_json json = {
+        {"vdbtet", VDBTET_VERSION},
+        {"openvdb", OPENVDB_LIBRARY_VERSION_STRING},
+        {"input", line.in},
+        {"output", line.dryRun ? nlohmann::ordered_json() : nlohmann::ordered_json(line.out)},
+        {"bytes", summary.bytes},
+        {"gridName", r.gridName},
+        {"gridType", summary.gridType},
+        {"isovalue", r.isovalue},
+        {"inside", name(r.inside)},
+        {"insideRule", r.insideRule},
+        {"spacing", r.spacing},
+        {"voxelSize", r.voxelSize},
+        {"tiger", r.tiger},
+        {"points", r.points},
+        {"tets", r.tets},
+        {"boundaryTriangles", r.boundaryTriangles},
+        {"ambiguous", r.ambiguous},
+        {"conflicts", r.conflicts},
+        {"activeFlips", r.activeFlips},
+        {"extraFlips", r.extraFlips},
+        {"lastResortFlips", r.lastResortFlips},
+        {"surfaceTiles", r.surfaceTiles},
+        {"cutEdges", r.cutEdges},
+        {"backLabelled", r.backLabelled},
+        {"tieBroken", r.tieBroken},
+        {"angles",
+         {{"min", r.angles.min},
+          {"max", r.angles.max},
+          {"provenMin", r.angleMin},
+          {"provenMax", r.angleMax},
+          {"histogram", r.angles.histogram}}},
+        {"bounds", {{"min", corner(r.bounds.min())}, {"max", corner(r.bounds.max())}}},
+        {"stages", stages},
+        {"seconds", summary.seconds}};
+    // A file may name its grids in any encoding.
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}

@@ -1,0 +1,116 @@
+/// @file vdb_tet.cc
+/// The command-line tool: parse, read, mesh into a sink, tell.
+#include "CommandLine.h"
+#include "SignalInterrupter.h"
+#include "Summary.h"
+
+#include <vdbtet/Errors.h>
+#include <vdbtet/GridFile.h>
+#include <vdbtet/VolumeToTets.h>
+#include <vdbtet/VtuWriter.h>
+
+#include "io/OutputFile.h"
+
+#include <fmt/core.h>
+#include <tbb/global_control.h>
+
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <new>
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Passes a mesh on to the writer, or its totals to nobody in a dry run.
+struct Output final : vdbtet::MeshSink {
+    std::unique_ptr<vdbtet::VtuWriter> writer;
+    std::uint64_t bytes = 0;
+
+    bool begin(const vdbtet::MeshTotals& totals) override {
+        bytes = vdbtet::VtuWriter::fileSize(totals);
+        return writer && writer->begin(totals);
+    }
+    void chunk(const vdbtet::MeshChunk& chunk) override { writer->chunk(chunk); }
+    void end() override {
+        if (writer) writer->end();
+    }
+};
+
+void print(const std::string& text) {
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+        throw vdbtet::FileError("cannot write to standard output");
+    }
+}
+
+int run(const CommandLine& line) {
+    SignalInterrupter interrupter;
+    std::unique_ptr<tbb::global_control> threads;
+    if (line.threads > 0) {
+        threads = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                        static_cast<std::size_t>(line.threads));
+    }
+
+    const auto start = Clock::now();
+    const auto grid = vdbtet::readGrid(line.in, line.name);
+    const double readSeconds = secondsSince(start);
+
+    // Opened before the work: what cannot be written should not be computed.
+    std::unique_ptr<vdbtet::OutputFile> reportFile;
+    if (!line.report.empty()) reportFile = std::make_unique<vdbtet::OutputFile>(line.report);
+    Output output;
+    if (!line.dryRun) output.writer = std::make_unique<vdbtet::VtuWriter>(line.out);
+
+    Summary summary;
+    summary.report = vdbtet::volumeToTets(*grid, output, line.options, &interrupter);
+    if (summary.report.cancelled) {
+        fmt::print(stderr, "vdb_tet: interrupted; nothing was written\n");
+        return 128 + interrupter.signal();
+    }
+    summary.seconds = secondsSince(start);
+    summary.report.stages.insert(summary.report.stages.begin(), {"read", readSeconds});
+    summary.gridType = grid->valueType() + ", " + openvdb::GridBase::gridClassToString(grid->getGridClass());
+    summary.bytes = output.bytes;
+
+    if (reportFile) {
+        const std::string json = asJson(line, summary);
+        reportFile->writeAt(0, json.data(), json.size());
+        reportFile->commit();
+    }
+    if (!line.quiet) print(asText(line, summary));
+    return 0;
+}
+
+int fail(std::string message, int exitCode) {
+    // Names of files and grids may hold anything; an error is one line all the same.
+    for (char& c : message) {
+        if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
+    }
+    fmt::print(stderr, "vdb_tet: {}\n", message);
+    return exitCode;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    // OpenVDB logs through cerr; errors reach the user as exceptions, and go to stderr as one line.
+    std::cerr.rdbuf(nullptr);
+    try {
+        const auto line = parseCommandLine(argc, argv);
+        return line ? run(*line) : 0;
+    } catch (const UsageError& error) {
+        return fail(error.what(), 2);
+    } catch (const vdbtet::BadOption& error) {
+        return fail(error.what(), 2);
+    } catch (const std::bad_alloc&) {
+        return fail("out of memory", 1);
+    } catch (const std::exception& error) {
+        return fail(error.what(), 1);
+    }
+}
