@@ -1,6 +1,6 @@
 #include "Pipeline.h"
 
-#include "cuts/Cuts.h"
+#include "cuts/Arrows.h"
 #include "destinations/Destinations.h"
 #include "emit/Emit.h"
 #include "emit/Measure.h"
@@ -50,7 +50,6 @@ MeshTotals totalsOf(const Numbering& numbering, const Measure& measure, const Fr
     totals.points = numbering.points();
     totals.tets = measure.tets();
     totals.bounds = measure.bounds;
-    if (totals.points == 0) return totals;
     double magnitude = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
         magnitude =
@@ -88,21 +87,23 @@ void runPipeline(const Field& field, const Frame& frame, const Options& options,
     if (report.cancelled) return;
     const auto signs = stage("signs", [&] { return findSigns(field, tiles, interrupt); });
     if (report.cancelled) return;
-    const Layout layout = stage("layout", [&] { return makeLayout(std::move(tiles), signs, interrupt); });
+    const Layout layout = stage("layout", [&] { return makeLayout(std::move(tiles), signs); });
     if (report.cancelled) return;
-    report.surfaceTiles = std::int64_t(layout.surfaceTiles.size());
-    const Cuts cuts = stage("cuts", [&] { return findCuts(field, layout, signs, interrupt); });
+    report.surfaceTiles = layout.surfaceCount();
+    std::optional<Arrows> arrows =
+        stage("cuts", [&] { return std::make_optional<Arrows>(field, layout, signs, interrupt); });
     if (report.cancelled) return;
-    report.cutEdges = cuts.count();
-    if (cuts.count() == 0)
+    report.cutEdges = arrows->cutEdges();
+    if (report.cutEdges == 0)
         throw NoSurface("no value crosses the isovalue at this spacing, so there is nothing to mesh");
-    const Labels labels = stage("labels", [&] { return labelVertices(layout, cuts, interrupt); });
+    const Labels labels = stage("labels", [&] { return labelVertices(layout, *arrows, interrupt); });
     if (report.cancelled) return;
     report.backLabelled = labels.backLabelled;
     report.tieBroken = labels.tieBroken;
     const Destinations destinations =
-        stage("destinations", [&] { return findDestinations(layout, cuts, labels, interrupt); });
+        stage("destinations", [&] { return findDestinations(field, layout, *arrows, labels, interrupt); });
     if (report.cancelled) return;
+    arrows.reset(); // the largest product, and no one reads it again
 
     const Vertices vertices{layout, signs, labels, destinations};
     const Flips flips = stage("flips", [&] { return chooseFlips(vertices, options.tiger, interrupt); });
@@ -122,6 +123,10 @@ void runPipeline(const Field& field, const Frame& frame, const Options& options,
     report.ambiguous = measure.ambiguous;
     report.angles = measure.angles;
     report.bounds = measure.bounds;
+    if (report.tets == 0) {
+        throw NoSurface(
+            "the shape is thinner than the lattice can hold, and nothing of it is left; use a finer spacing");
+    }
     // Theorem 3; where Algorithm 5 met no conflict the resolution sufficed.
     const bool resolved = options.tiger >= 2 && flips.conflicts == 0;
     report.angleMin = resolved ? 11.47 : 8.54;

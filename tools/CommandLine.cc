@@ -5,7 +5,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
+#include <map>
 
 namespace {
 
@@ -14,7 +17,21 @@ namespace fs = std::filesystem;
 bool isSameFile(const std::string& a, const std::string& b) {
     std::error_code error;
     if (fs::equivalent(a, b, error)) return true; // by any name, where both exist
-    return fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error) && !error;
+    const auto canonical = [&error](const std::string& path) {
+        return fs::weakly_canonical(fs::absolute(path, error), error);
+    };
+    return canonical(a) == canonical(b) && !error;
+}
+
+const std::map<std::string, vdbtet::Inside> kSides = {
+    {"below", vdbtet::Inside::Below}, {"above", vdbtet::Inside::Above}, {"auto", vdbtet::Inside::Automatic}};
+
+/// @return what is wrong with the text, or nothing
+std::string isPositive(const std::string& text) {
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    const bool fine = !text.empty() && *end == '\0' && value > 0.0 && std::isfinite(value);
+    return fine ? "" : text + " is not a positive number";
 }
 
 void check(const CommandLine& line) {
@@ -35,6 +52,7 @@ void check(const CommandLine& line) {
 std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
     CommandLine line;
     vdbtet::Options& options = line.options;
+    const CLI::Validator positive(isPositive, "");
 
     CLI::App app("Fill an OpenVDB volume with tetrahedra of guaranteed dihedral angles.\n", "vdb_tet");
     app.set_version_flag("--version", "vdb_tet " VDBTET_VERSION ", OpenVDB " OPENVDB_LIBRARY_VERSION_STRING);
@@ -47,19 +65,17 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
     app.add_option("-i,--isovalue", options.isovalue,
                    "Where the surface is. Default: 0 for a level set, 0.5 for a fog volume")
         ->type_name("VALUE");
-    const std::map<std::string, vdbtet::Inside> sides = {{"auto", vdbtet::Inside::Automatic},
-                                                         {"below", vdbtet::Inside::Below},
-                                                         {"above", vdbtet::Inside::Above}};
-    app.add_option("--inside", options.inside,
-                   "Mesh where values are below or above the isovalue. Default: auto, by the grid's class")
-        ->transform(CLI::CheckedTransformer(sides).description(""))
+    app.add_option_function<std::string>(
+           "--inside", [&options](const std::string& side) { options.inside = kSides.at(side); },
+           "Mesh where values are below or above the isovalue. Default: auto, by the grid's class")
+        ->check(CLI::IsMember(kSides).description(""))
         ->type_name("below|above|auto");
     auto* spacing =
         app.add_option("-s,--spacing", options.spacing, "Length of the lattice's long edges in world units")
-            ->check(CLI::PositiveNumber.description(""))
+            ->check(positive)
             ->type_name("LENGTH");
     app.add_option("-v,--voxels", options.voxels, "The same in voxels. Default: 1")
-        ->check(CLI::PositiveNumber.description(""))
+        ->check(positive)
         ->type_name("VOXELS")
         ->excludes(spacing);
     app.add_option("--tiger", options.tiger,

@@ -30,9 +30,8 @@ std::string asText(const CommandLine& line, const Summary& summary) {
         text += fmt::format("{:<9} {}\n", key, value);
     };
     add("grid", fmt::format("{} ({})", r.gridName.empty() ? "unnamed" : r.gridName, summary.gridType));
-    add("inside", fmt::format("{} {:g}: {}", name(r.inside), r.isovalue, r.insideRule));
-    add("spacing",
-        fmt::format("{:g} ({:g} voxels of {:g})", r.spacing, r.spacing / r.voxelSize, r.voxelSize));
+    add("rule", r.insideRule);
+    add("spacing", fmt::format("{:g}, in voxels {:g}", r.spacing, r.spacing / r.voxelSize));
     add("mesh",
         fmt::format("{} points, {} tets, {} boundary triangles", r.points, r.tets, r.boundaryTriangles));
     const auto bound = fmt::format("proven to lie between {:.2f} and {:.2f}", r.angleMin, r.angleMax);

@@ -37,7 +37,7 @@ int main(int argc, char** argv) try {
         std::fprintf(stderr, "usage: vdbtet_sample OUT.vdb\n");
         return 2;
     }
-    constexpr double voxel = 0.02;
+    constexpr double voxel = 0.025;
     constexpr double halfWidth = 3.0 * voxel;
     openvdb::initialize();
     const auto grid = openvdb::FloatGrid::create(float(halfWidth));
@@ -45,7 +45,7 @@ int main(int argc, char** argv) try {
     grid->setGridClass(openvdb::GRID_LEVEL_SET);
     grid->setTransform(openvdb::math::Transform::createLinearTransform(voxel));
     auto accessor = grid->getAccessor();
-    const openvdb::CoordBBox box(openvdb::Coord(-80, -80, -40), openvdb::Coord(80, 80, 45));
+    const openvdb::CoordBBox box(openvdb::Coord(-64, -64, -32), openvdb::Coord(64, 64, 36));
     for (auto i = box.begin(); i; ++i) {
         const double distance = sample(grid->indexToWorld(*i));
         if (std::abs(distance) < halfWidth) accessor.setValue(*i, float(distance));

@@ -1,5 +1,5 @@
 /// @file TileMask.h
-/// One bit for each of the 8 x 8 x 8 vertices of a tile, and the same mask with a border of one vertex.
+/// One bit for each of the 8 x 8 x 8 vertices of a tile, and such masks of neighbouring tiles.
 ///
 /// A bit's number is x<<6 | y<<3 | z, as in a VDB leaf: a word is an x-slab, a byte a z-row.
 #pragma once
@@ -89,52 +89,41 @@ constexpr int neighbourSlot(int dx, int dy, int dz) { return (dx + 1) * 9 + (dy 
 /// The tile step (-1, 0 or 1) to the tile that holds local coordinate @a x in -8..15.
 constexpr int tileStep(int x) { return x < 0 ? -1 : x > 7 ? 1 : 0; }
 
-/// A tile's mask with the bits of its 26 neighbours around it: coordinates -1 to 8.
-class PaddedMask {
-public:
-    PaddedMask() = default;
+/// The masks of a tile and of its 26 neighbours, seen as one mask with coordinates -8 to 15.
+struct MasksAround {
+    std::array<const TileMask*, 27> masks; ///< by neighbourSlot()
 
-    /// @param masks  the 27 masks by neighbourSlot()
-    explicit PaddedMask(const std::array<const TileMask*, 27>& masks) {
-        for (int x = -1; x <= 8; ++x) {
-            for (int y = -1; y <= 8; ++y) {
-                const int slot = neighbourSlot(tileStep(x), tileStep(y), 0);
-                auto row = [&](int dz) {
-                    return unsigned(masks[slot + dz]->words[x & 7] >> ((y & 7) * 8) & 0xff);
-                };
-                mRows[x + 1][y + 1] = std::uint16_t(row(-1) >> 7 | row(0) << 1 | (row(1) & 1) << 9);
-            }
-        }
-    }
-
-    bool test(int x, int y, int z) const { return mRows[x + 1][y + 1] >> (z + 1) & 1; }
-
-    /// Clear the bits that are set in @a o.
-    PaddedMask& subtract(const PaddedMask& o) {
-        for (int x = 0; x < 10; ++x) {
-            for (int y = 0; y < 10; ++y) mRows[x][y] &= std::uint16_t(~o.mRows[x][y]);
-        }
-        return *this;
-    }
-
-    /// @return the bits -1 to 8 of the z-row at (@a x, @a y), the lowest bit being z = -1.
-    unsigned row(int x, int y) const { return mRows[x + 1][y + 1]; }
-
-    /// @return the mask whose bit (x,y,z) is this one's bit (x+dx, y+dy, z+dz); each step in -1..1.
+    /// @return the mask whose bit (x,y,z) is bit (x+dx, y+dy, z+dz) of the whole; each step in -1..1.
     TileMask shifted(int dx, int dy, int dz) const {
-        TileMask mask;
-        for (int x = 0; x < 8; ++x) {
-            std::uint64_t word = 0;
-            for (int y = 0; y < 8; ++y) {
-                word |= std::uint64_t(mRows[x + 1 + dx][y + 1 + dy] >> (1 + dz) & 0xff) << (8 * y);
-            }
-            mask.words[x] = word;
+        TileMask result;
+        for (int x = 0; x < TileMask::kDim; ++x) {
+            const std::uint64_t rows = shiftedRows(x + dx, 0, dz);
+            result.words[x] = dy == 0  ? rows
+                              : dy > 0 ? rows >> 8 | shiftedRows(x + dx, 1, dz) << 56
+                                       : rows << 8 | shiftedRows(x + dx, -1, dz) >> 56;
         }
-        return mask;
+        return result;
+    }
+
+    /// @return the bits -1 to 8 of the z-row at (@a x, @a y), each in -1..8; the lowest bit is z = -1.
+    unsigned row(int x, int y) const {
+        const int slot = neighbourSlot(tileStep(x), tileStep(y), 0);
+        const auto bits = [&](int dz) {
+            return unsigned(masks[slot + dz]->words[x & 7] >> ((y & 7) * 8) & 0xff);
+        };
+        return bits(-1) >> 7 | bits(0) << 1 | (bits(1) & 1) << 9;
     }
 
 private:
-    std::uint16_t mRows[10][10] = {};
+    /// The slab @a x of the tiles at @a tileY, moved by @a dz along its rows.
+    std::uint64_t shiftedRows(int x, int tileY, int dz) const {
+        constexpr std::uint64_t kLow = 0x0101010101010101, kHigh = 0x8080808080808080;
+        const int slot = neighbourSlot(tileStep(x), tileY, 0);
+        const auto slab = [&](int tileZ) { return masks[slot + tileZ]->words[x & 7]; };
+        return dz == 0  ? slab(0)
+               : dz > 0 ? (slab(0) & ~kLow) >> 1 | (slab(1) & kLow) << 7
+                        : (slab(0) & ~kHigh) << 1 | (slab(-1) & kHigh) >> 7;
+    }
 };
 
 } // namespace vdbtet

@@ -1,29 +1,59 @@
 #include "destinations/Destinations.h"
 
-#include <algorithm>
-
 namespace vdbtet {
 
 namespace {
 
-/// Nearer by less than this is a tie: rounding must not choose the direction.
+/// Nearer by less than this fraction of an edge is a tie: rounding must not choose the direction.
 constexpr float kTie = 1e-6f;
 
-/// @return the fraction of the short edge from @a vertex of @a lattice to the cut point in @a direction.
-float distanceToCut(const Layout& layout, const Cuts& cuts, TileRef tile, bcc::Lattice lattice, int vertex,
-                    int direction) {
-    if (lattice == bcc::A) return cuts.t(tile, vertex, direction);
-    const bcc::Step step = bcc::shortEdge(bcc::B, direction);
-    const int x = (vertex >> 6) + step.x, y = (vertex >> 3 & 7) + step.y, z = (vertex & 7) + step.z;
-    const TileRef owner = layout.neighbours[tile][neighbourSlot(tileStep(x), tileStep(y), tileStep(z))];
-    return 1.0f - cuts.t(owner, TileMask::bit(x & 7, y & 7, z & 7), bcc::opposite(direction));
-}
+/// The nearest cut points of the vertices of one lattice of a tile.
+class Nearest {
+public:
+    void find(Field::Sampler& sampler, const openvdb::Coord& tile, bcc::Lattice lattice,
+              const EdgeMasks& edges) {
+        int count = 0;
+        for (const TileMask& mask : edges) count += mask.count();
+        mCuts.resize(count);
+        sampler.cutPoints(tile, lattice, edges, mCuts.data());
+
+        mDistance.fill(2.0f);
+        forEachCut(edges, [&](int, int vertex, float distance) {
+            if (distance < mDistance[vertex]) mDistance[vertex] = distance;
+        });
+        // The first direction, in ascending order, that is as near as the nearest.
+        mDirection.fill(kNone);
+        forEachCut(edges, [&](int direction, int vertex, float distance) {
+            if (mDirection[vertex] != kNone || distance > mDistance[vertex] + kTie) return;
+            mDirection[vertex] = std::uint8_t(direction);
+            mDistance[vertex] = distance;
+        });
+    }
+
+    float distance(int vertex) const { return mDistance[vertex]; }
+    std::uint8_t direction(int vertex) const { return mDirection[vertex]; }
+
+private:
+    static constexpr std::uint8_t kNone = 255;
+
+    template <typename Visit>
+    void forEachCut(const EdgeMasks& edges, Visit&& visit) const {
+        const float* cut = mCuts.data();
+        for (int d = 0; d < bcc::kDirections; ++d) {
+            edges[d].forEach([&](int vertex) { visit(d, vertex, *cut++); });
+        }
+    }
+
+    std::vector<float> mCuts;
+    std::array<float, TileMask::kSize> mDistance;
+    std::array<std::uint8_t, TileMask::kSize> mDirection;
+};
 
 } // namespace
 
-Destinations findDestinations(const Layout& layout, const Cuts& cuts, const Labels& labels,
-                              Interrupt& interrupt) {
-    const std::int64_t tiles = std::int64_t(layout.surfaceTiles.size());
+Destinations findDestinations(const Field& field, const Layout& layout, const Arrows& arrows,
+                              const Labels& labels, Interrupt& interrupt) {
+    const std::int64_t tiles = layout.surfaceCount();
     Destinations destinations;
     destinations.first.resize(tiles);
     std::int64_t sum = 0;
@@ -33,35 +63,30 @@ Destinations findDestinations(const Layout& layout, const Cuts& cuts, const Labe
             sum += labels.manifold[t][lattice].count();
         }
     }
-    destinations.moves.resize(sum);
+    destinations.distances.resize(sum);
+    destinations.directions.resize(sum);
 
     parallelRanges(tiles, interrupt, [&](std::int64_t begin, std::int64_t end) {
+        const auto sampler = field.sampler();
+        Nearest nearest;
         for (std::int64_t t = begin; t < end; ++t) {
-            const Surroundings around(layout.neighbours[t]);
+            const Neighbours neighbours = layout.neighbours(TileRef(t));
+            const Surroundings around(neighbours);
             for (bcc::Lattice lattice : {bcc::A, bcc::B}) {
                 const TileMask& manifold = labels.manifold[t][lattice];
                 if (!manifold.any()) continue;
-                const PaddedMask far = around.masks(labels.manifold, bcc::other(lattice));
-                EdgeMasks allowed;
+                const MasksAround far = around.masks(labels.manifold, bcc::other(lattice));
+                EdgeMasks edges = arrows.leaving(TileRef(t), neighbours, lattice);
                 for (int d = 0; d < bcc::kDirections; ++d) {
                     const bcc::Step step = bcc::shortEdge(lattice, d);
-                    allowed[d] = cuts.arrows[t][lattice][d] & ~far.shifted(step.x, step.y, step.z);
+                    edges[d] &= manifold & ~far.shifted(step.x, step.y, step.z);
                 }
-                openvdb::Vec3f* move = destinations.moves.data() + destinations.first[t][lattice];
+                nearest.find(*sampler, layout.surfaceTiles[t], lattice, edges);
+                std::int64_t move = destinations.first[t][lattice];
                 manifold.forEach([&](int vertex) {
-                    float distance[bcc::kDirections];
-                    float nearest = 2.0f;
-                    for (int d = 0; d < bcc::kDirections; ++d) {
-                        distance[d] = allowed[d].test(vertex)
-                                          ? distanceToCut(layout, cuts, TileRef(t), lattice, vertex, d)
-                                          : 2.0f;
-                        nearest = std::min(nearest, distance[d]);
-                    }
-                    int d = 0;
-                    while (distance[d] > nearest + kTie) ++d;
-                    const float half = 0.5f * distance[d];
-                    *move++ = openvdb::Vec3f(bcc::sign(d, 0) * half, bcc::sign(d, 1) * half,
-                                             bcc::sign(d, 2) * half);
+                    destinations.distances[move] = nearest.distance(vertex);
+                    destinations.directions[move] = nearest.direction(vertex);
+                    ++move;
                 });
             }
         }

@@ -3,29 +3,37 @@
 #pragma once
 
 #include "Parallel.h"
-#include "cuts/Cuts.h"
+#include "cuts/Arrows.h"
 #include "labels/Labels.h"
 #include "tiles/Layout.h"
 
 #include <openvdb/Types.h>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 namespace vdbtet {
 
-/// @brief The moves of the manifold vertices, in lattice units, from their places in the lattice.
-/// @details A move along a short edge by the fraction alpha is (+-1, +-1, +-1) alpha / 2. Later stages read
-/// nothing but the vector.
+/// @brief The moves of the manifold vertices from their places in the lattice.
+/// @details Later stages read nothing but move(): how a move is stored is this stage's own affair.
 struct Destinations {
     std::vector<std::array<std::int64_t, 2>>
-        first; ///< into moves, by tile and lattice; then by bit of Labels::manifold
-    std::vector<openvdb::Vec3f> moves;
+        first; ///< the first move of a tile and lattice; they go by bit of Labels::manifold
+    std::vector<float> distances; ///< as fractions of a short edge
+    std::vector<std::uint8_t> directions;
+
+    /// @return move number @a i, in lattice units.
+    openvdb::Vec3d move(std::int64_t i) const {
+        const int d = directions[i];
+        const double half = 0.5 * distances[i];
+        return openvdb::Vec3d(bcc::sign(d, 0) * half, bcc::sign(d, 1) * half, bcc::sign(d, 2) * half);
+    }
 };
 
-/// Each manifold vertex moves to its nearest cut point on an edge to a non-manifold vertex; of equally near
-/// ones the lowest direction wins.
-Destinations findDestinations(const Layout& layout, const Cuts& cuts, const Labels& labels,
-                              Interrupt& interrupt);
+/// Each manifold vertex moves to its nearest cut point on an edge to a non-manifold vertex, at most half the
+/// edge; of equally near ones the lowest direction wins.
+Destinations findDestinations(const Field& field, const Layout& layout, const Arrows& arrows,
+                              const Labels& labels, Interrupt& interrupt);
 
 } // namespace vdbtet

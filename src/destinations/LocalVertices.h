@@ -24,6 +24,23 @@ struct Vertices {
     const Destinations& destinations;
 };
 
+/// The masks around a tile of the vertices inside that are not manifold.
+class Interior {
+public:
+    Interior() = default;
+    Interior(const Vertices& vertices, const Neighbours& neighbours);
+
+    /// @return the masks of one lattice; valid as long as this object.
+    MasksAround masks(int lattice) const {
+        MasksAround around;
+        for (int slot = 0; slot < 27; ++slot) around.masks[slot] = &mMasks[lattice][slot];
+        return around;
+    }
+
+private:
+    std::array<std::array<TileMask, 27>, 2> mMasks; ///< by lattice and neighbourSlot()
+};
+
 enum class State : std::uint8_t {
     Outside,
     Inside,  ///< inside and not manifold
@@ -70,9 +87,8 @@ public:
     /// The move of a manifold vertex from its place in the lattice.
     openvdb::Vec3d move(int local) const { return mPosition[local] - home(local); }
 
-    /// The vertices inside that are not manifold.
-    const PaddedMask& interior(int lattice) const { return mInterior[lattice]; }
-    const PaddedMask& manifoldMask(int lattice) const { return mManifold[lattice]; }
+    const Interior& interior() const { return mInterior; }
+    const Neighbours& neighbours() const { return mNeighbours; }
 
     /// The place in the lattice.
     static openvdb::Vec3d home(int local) {
@@ -82,9 +98,13 @@ public:
     }
 
 private:
+    /// Make the manifold vertices of the tile at neighbourSlot() @a slot so, as far as they are at hand.
+    void move(const Vertices& vertices, TileRef from, bcc::Lattice lattice, int slot);
+
     std::array<State, kLocalVertices> mState;
     std::array<openvdb::Vec3d, kLocalVertices> mPosition;
-    std::array<PaddedMask, 2> mInterior, mManifold;
+    Neighbours mNeighbours;
+    Interior mInterior;
     std::vector<int> mMoved; ///< whose positions are not their homes
 };
 

@@ -133,13 +133,13 @@ private:
         }
     }
 
-    IdRange idRange(const Coord& tile) const {
-        const Layout& layout = mVertices.layout;
-        const std::int64_t span = layout.find(tile);
+    /// @param span  of the layout, or -1 outside
+    /// @param z     of the tile in it
+    IdRange idRange(std::int64_t span, int z) const {
         if (span < 0) return {0, {&mNone, &mNone}};
-        const Layout::Span& s = layout.spans[span];
+        const Layout::Span& s = mVertices.layout.spans[span];
         if (s.surface < 0) {
-            const std::int64_t offset = std::int64_t(tile.z()) - s.first.z();
+            const std::int64_t offset = std::int64_t(z) - s.first.z();
             return {mNumbering.first[span] + kInteriorPoints * offset, {&mAll, &mAll}};
         }
         const auto& used = mNumbering.used[s.surface];
@@ -148,9 +148,10 @@ private:
 
     /// Look up the ids of all vertices in and around a tile; those of unused vertices are arbitrary.
     void findIds(const Coord& tile) {
+        const auto spans = mVertices.layout.spansAround(tile);
         for (int slot = 0; slot < 27; ++slot) {
             const int step[3] = {slot / 9 - 1, slot / 3 % 3 - 1, slot % 3 - 1};
-            const IdRange range = idRange(tile.offsetBy(step[0], step[1], step[2]));
+            const IdRange range = idRange(spans[slot], tile.z() + step[2]);
             auto first = [](int s) { return s < 0 ? -1 : s > 0 ? 8 : 0; };
             auto last = [](int s) { return s < 0 ? -1 : s > 0 ? 8 : 7; };
             std::int64_t base = range.first;
@@ -186,7 +187,8 @@ private:
 void emitMesh(const Vertices& vertices, const Flips& flips, const Numbering& numbering,
               const Measure& measure, const Frame& frame, MeshSink& sink, Interrupt& interrupt) {
     using ChunkPtr = std::unique_ptr<MeshChunk>;
-    tbb::enumerable_thread_specific<ChunkBuilder> builders(vertices, flips, numbering, measure, frame);
+    tbb::enumerable_thread_specific<std::unique_ptr<ChunkBuilder>> builders(
+        [&] { return std::make_unique<ChunkBuilder>(vertices, flips, numbering, measure, frame); });
     tbb::concurrent_queue<ChunkPtr> spare; // fresh pages cost more than the tets that fill them
     Units units(vertices.layout);
 
@@ -200,7 +202,7 @@ void emitMesh(const Vertices& vertices, const Flips& flips, const Numbering& num
     const auto build = [&](const Unit& unit) {
         ChunkPtr chunk;
         if (!spare.try_pop(chunk)) chunk = std::make_unique<MeshChunk>();
-        builders.local().build(unit, *chunk);
+        builders.local()->build(unit, *chunk);
         return chunk.release();
     };
     const auto pass = [&](MeshChunk* raw) {

@@ -46,7 +46,7 @@ bool beyondOuterFace(const TetWalk& walk, const Doubled& end, const Doubled& oth
     int axis = 0;
     while (mirrored.c[axis] == end.c[axis]) ++axis;
     const Doubled& lower = mirrored.c[axis] < end.c[axis] ? mirrored : end;
-    const bcc::Slice slice = walk.slice(lower.lattice(), axis, lower.x(), lower.y(), lower.z());
+    const bcc::Slice slice = walk.slice(axis, localIndex(lower.lattice(), lower.x(), lower.y(), lower.z()));
     if (slice == bcc::S) return interior(walk, mirrored);
 
     // A flipped octahedron: the fourth vertex is the far end of the ring's diagonal, which starts at o1 or at
@@ -125,7 +125,7 @@ void expandByPoints(const Vertices& vertices, const Numbering& numbering, const 
 Measure measureMesh(const Vertices& vertices, const Flips& flips, const Numbering& numbering,
                     const Frame& frame, Interrupt& interrupt) {
     const Layout& layout = vertices.layout;
-    const std::int64_t tiles = std::int64_t(layout.surfaceTiles.size());
+    const std::int64_t tiles = layout.surfaceCount();
     std::vector<TileMeasure> measures(tiles);
     constexpr std::int64_t kGrain = 32;
     const RangeMeasure all = tbb::parallel_reduce(

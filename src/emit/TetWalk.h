@@ -25,21 +25,22 @@ struct LocalTet {
 class TetWalk {
 public:
     TetWalk(const Vertices& vertices, const Flips& flips) : mVertices(vertices), mFlips(flips) {}
+    TetWalk(const TetWalk&) = delete;
+    TetWalk& operator=(const TetWalk&) = delete;
 
     /// Go to a surface tile; its tets and local vertices are at hand until the next call.
     void load(TileRef tile);
 
     const LocalVertices& local() const { return mLocal; }
-    const Neighbours& neighbours() const { return *mNeighbours; }
 
     /// @brief Call @a visit(LocalTet, manifoldVertices) for each tet in the mesh.
     /// @return the number of ambiguous tets, which are not in the mesh
     template <typename Visit>
     std::int64_t forEachTet(Visit&& visit) const;
 
-    /// @return the slice of the octahedron of the spine at the vertex (x,y,z) of @a lattice, each coordinate
-    /// in -8..15.
-    bcc::Slice slice(int lattice, int axis, int x, int y, int z) const;
+    /// @return the slice of the octahedron of the spine along the positive @a axis from the vertex @a lower,
+    /// a local number.
+    bcc::Slice slice(int axis, int lower) const { return mSlices[axis][lower]; }
 
     /// @return the state of the vertex (x,y,z) of @a lattice, each coordinate in -8..15.
     State stateAt(int lattice, int x, int y, int z) const;
@@ -50,7 +51,10 @@ private:
     /// interior.
     TileMask relevantSpines(int axis, TileMask& plain) const;
 
-    bool ringEdgeFlipped(int axis, int base, int number) const;
+    bool ringEdgeFlipped(const LocalTet& tet, int axis) const {
+        const bcc::RingEdge& edge = bcc::kRingEdges[tet.number];
+        return slice((axis + edge.axisOffset) % 3, tet.octahedron[edge.lower]) != bcc::S;
+    }
 
     template <typename Visit>
     std::int64_t classify(const LocalTet& tet, Visit&& visit) const {
@@ -69,42 +73,38 @@ private:
     const Flips& mFlips;
     LocalVertices mLocal;
     TileRef mTile = 0;
-    const Neighbours* mNeighbours = nullptr;
-    bool mAnyFlipsB = false; ///< some L_B spine of the tile or a neighbour is flipped
+    std::array<std::array<bcc::Slice, kLocalVertices>, 3> mSlices{}; ///< by axis and lower end
+    std::vector<bcc::Slice*> mFlipped;                               ///< those that are not S
 };
 
 template <typename Visit>
 std::int64_t TetWalk::forEachTet(Visit&& visit) const {
     std::int64_t ambiguous = 0;
-    const TileFlips& flips = mFlips.tiles[mTile];
     LocalTet tet;
     tet.lattice = bcc::A;
     for (int axis = 0; axis < 3; ++axis) {
-        const auto& flipped = flips[bcc::A][axis];
         TileMask plain;
         relevantSpines(axis, plain).forEach([&](int n) {
             const int base = localIndex(bcc::A, n);
             tet.octahedron = localOctahedron(bcc::A, axis, base);
-            tet.slice = flipped[0].test(n) ? bcc::SliceA : flipped[1].test(n) ? bcc::SliceB : bcc::S;
-            if (plain.test(n)) {
-                for (tet.number = 0; tet.number < 4; ++tet.number) visit(tet, 0);
-                return;
-            }
+            tet.slice = slice(axis, base);
+            const bool isPlain = plain.test(n);
             for (tet.number = 0; tet.number < 4; ++tet.number) {
-                if (tet.slice == bcc::S && mAnyFlipsB && ringEdgeFlipped(axis, base, tet.number)) continue;
-                ambiguous += classify(tet, visit);
+                if (isPlain) {
+                    visit(tet, 0);
+                } else if (tet.slice != bcc::S || !ringEdgeFlipped(tet, axis)) {
+                    ambiguous += classify(tet, visit);
+                }
             }
         });
     }
     tet.lattice = bcc::B;
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto& flipped = flips[bcc::B][axis];
-        (flipped[0] | flipped[1]).forEach([&](int n) {
-            tet.octahedron = localOctahedron(bcc::B, axis, localIndex(bcc::B, n));
-            tet.slice = flipped[0].test(n) ? bcc::SliceA : bcc::SliceB;
-            for (tet.number = 0; tet.number < 4; ++tet.number) ambiguous += classify(tet, visit);
-        });
-    }
+    mFlips.forEach(mTile, [&](const Flip& flip) {
+        if (flip.lattice != bcc::B) return;
+        tet.octahedron = localOctahedron(bcc::B, flip.axis, localIndex(bcc::B, flip.vertex));
+        tet.slice = flip.slice;
+        for (tet.number = 0; tet.number < 4; ++tet.number) ambiguous += classify(tet, visit);
+    });
     return ambiguous;
 }
 

@@ -20,6 +20,9 @@ namespace vdbtet {
 /// The inside vertices of a tile, L_A and L_B.
 using TileSigns = std::array<TileMask, 2>;
 
+/// For each direction the vertices of a tile that have some property along the short edge that way.
+using EdgeMasks = std::array<TileMask, bcc::kDirections>;
+
 class Field {
 public:
     virtual ~Field() = default;
@@ -40,13 +43,19 @@ public:
 
         virtual TileSigns signs(const openvdb::Coord& tile) = 0;
 
-        /// @brief Find the cut points of short edges.
-        /// @param cut  for each direction the L_A vertices of @a tile whose short edge that way has ends of
-        /// opposite sign
-        /// @param t    receives for each of them, by direction and then by bit, the cut point's distance from
-        /// the L_A end as a fraction of the edge, in [0, 1]
-        virtual void cutPoints(const openvdb::Coord& tile, const std::array<TileMask, bcc::kDirections>& cut,
-                               float* t) = 0;
+        /// @brief Decide which end of a cut short edge is the nearer one to its cut point.
+        /// @param cut  the L_A vertices of @a tile whose short edge in each direction has ends of opposite
+        /// sign
+        /// @return those of them to which the cut point is nearer than to the L_B end, or as near.
+        virtual EdgeMasks nearerToA(const openvdb::Coord& tile, const EdgeMasks& cut) = 0;
+
+        /// @brief Find cut points from their nearer ends.
+        /// @param lattice  which vertices of @a tile
+        /// @param edges    for each direction the vertices whose edge that way is cut, nearer to them
+        /// @param distance receives for each of them, by direction and then by bit, the distance of the cut
+        /// point as a fraction of the edge, in [0, 1/2]
+        virtual void cutPoints(const openvdb::Coord& tile, bcc::Lattice lattice, const EdgeMasks& edges,
+                               float* distance) = 0;
     };
 
     virtual std::unique_ptr<Sampler> sampler() const = 0;

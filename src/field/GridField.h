@@ -66,14 +66,25 @@ public:
         return signs;
     }
 
-    void cutPoints(const openvdb::Coord& tile, const std::array<TileMask, bcc::kDirections>& cut,
-                   float* t) override {
+    EdgeMasks nearerToA(const openvdb::Coord& tile, const EdgeMasks& cut) override {
+        EdgeMasks nearer;
         for (int d = 0; d < bcc::kDirections; ++d) {
-            const openvdb::Vec3d edge(0.5 * bcc::sign(d, 0), 0.5 * bcc::sign(d, 1), 0.5 * bcc::sign(d, 2));
+            const openvdb::Vec3d edge = shortEdge(d);
             cut[d].forEach([&](int n) {
                 const openvdb::Vec3d from = position(tile, n, 0.0);
-                *t++ = float(rootInUnitInterval(phi(from), phi(from + edge),
-                                                [&](double s) { return phi(from + edge * s); }));
+                if (cutInFirstHalf(phi(from), phi(from + 0.5 * edge), phi(from + edge))) nearer[d].set(n);
+            });
+        }
+        return nearer;
+    }
+
+    void cutPoints(const openvdb::Coord& tile, bcc::Lattice lattice, const EdgeMasks& edges,
+                   float* distance) override {
+        for (int d = 0; d < bcc::kDirections; ++d) {
+            const openvdb::Vec3d edge = shortEdge(d);
+            edges[d].forEach([&](int n) {
+                const openvdb::Vec3d from = position(tile, n, 0.5 * lattice);
+                *distance++ = distanceToCut(phi(from), [&](double s) { return phi(from + s * edge); });
             });
         }
     }
@@ -82,6 +93,10 @@ private:
     static openvdb::Vec3d position(const openvdb::Coord& tile, int n, double shift) {
         return openvdb::Vec3d(8.0 * tile.x() + (n >> 6) + shift, 8.0 * tile.y() + (n >> 3 & 7) + shift,
                               8.0 * tile.z() + (n & 7) + shift);
+    }
+
+    static openvdb::Vec3d shortEdge(int d) {
+        return openvdb::Vec3d(0.5 * bcc::sign(d, 0), 0.5 * bcc::sign(d, 1), 0.5 * bcc::sign(d, 2));
     }
 
     double phi(const openvdb::Vec3d& lattice) {
@@ -125,16 +140,34 @@ public:
         return signs;
     }
 
-    void cutPoints(const openvdb::Coord& tile, const std::array<TileMask, bcc::kDirections>& cut,
-                   float* t) override {
+    EdgeMasks nearerToA(const openvdb::Coord& tile, const EdgeMasks& cut) override {
         load(tile);
+        EdgeMasks nearer;
         for (int d = 0; d < bcc::kDirections; ++d) {
             cut[d].forEach([&](int n) {
-                double p[8], q[8];
+                double p[8];
                 corners(n >> 6, n >> 3 & 7, n & 7, d, p);
-                // The centre must be summed in the order of signs(), or its sign could differ.
-                for (int corner = 0; corner < 8; ++corner) q[corner] = p[corner ^ bcc::opposite(d)];
-                *t++ = float(rootInUnitInterval(p[0], centreValue(q), Diagonal(p)));
+                const Diagonal phi(p);
+                if (cutInFirstHalf(p[0], phi(0.5), phi(1.0))) nearer[d].set(n);
+            });
+        }
+        return nearer;
+    }
+
+    void cutPoints(const openvdb::Coord& tile, bcc::Lattice lattice, const EdgeMasks& edges,
+                   float* distance) override {
+        load(tile);
+        for (int d = 0; d < bcc::kDirections; ++d) {
+            // The voxel at the edge's L_A end, and the direction from there.
+            const bcc::Step step = lattice == bcc::A ? bcc::Step{0, 0, 0} : bcc::shortEdge(bcc::B, d);
+            const int fromA = lattice == bcc::A ? d : bcc::opposite(d);
+            edges[d].forEach([&](int n) {
+                double p[8];
+                corners((n >> 6) + step.x, (n >> 3 & 7) + step.y, (n & 7) + step.z, fromA, p);
+                const Diagonal phi(p);
+                *distance++ = lattice == bcc::A
+                                  ? distanceToCut(p[0], phi)
+                                  : distanceToCut(centreOf(p, fromA), [&](double s) { return phi(1.0 - s); });
             });
         }
     }
@@ -150,8 +183,19 @@ private:
         }
     }
 
+    /// The value at the centre of corners() in @a direction, summed in the order of signs(): else its sign
+    /// could differ.
+    static double centreOf(const double (&p)[8], int direction) {
+        double q[8];
+        for (int corner = 0; corner < 8; ++corner) q[corner] = p[corner ^ bcc::opposite(direction)];
+        return centreValue(q);
+    }
+
     /// Copy the tile's voxels and a border of one from the leaves.
     void load(const openvdb::Coord& tile) {
+        if (mLoaded && tile == mTile) return;
+        mLoaded = true;
+        mTile = tile;
         for (int slot = 0; slot < 27; ++slot) {
             const int step[3] = {slot / 9 - 1, slot / 3 % 3 - 1, slot % 3 - 1};
             const openvdb::Coord origin(8 * (tile.x() + step[0]), 8 * (tile.y() + step[1]),
@@ -174,7 +218,9 @@ private:
 
     typename GridT::ConstAccessor mAccessor;
     Level mLevel;
-    double mValues[1000];
+    openvdb::Coord mTile;
+    bool mLoaded = false;
+    double mValues[1000]; ///< of mTile
 };
 
 template <typename GridT>

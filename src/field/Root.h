@@ -12,9 +12,9 @@ template <typename Function>
 double rootInUnitInterval(double f0, double f1, Function&& f) {
     constexpr double kTolerance = 1e-10;
     constexpr int kMaxIterations = 100;
-    const bool inside0 = f0 >= 0.0;
     if (f0 == 0.0) return 0.0;
     if (f1 == 0.0) return 1.0;
+    const bool inside0 = f0 >= 0.0;
     double a = 0.0, b = 1.0, last = 2.0;
     int stayed = 0; // +1: end a stayed in the last step, -1: end b
     for (int i = 0; i < kMaxIterations; ++i) {
@@ -34,6 +34,27 @@ double rootInUnitInterval(double f0, double f1, Function&& f) {
         }
     }
     return 0.5 * (a + b);
+}
+
+/// Nearer to the middle of an edge than about this fraction of it, a cut point counts as in the middle:
+/// rounding must not decide a tie.
+constexpr double kMiddle = 1e-7;
+
+/// @return whether the cut point of an edge lies in its first half, or in the middle; all values of the field
+/// at: the first end, the middle, the other end.
+inline bool cutInFirstHalf(double first, double middle, double second) {
+    if (std::abs(middle) <= kMiddle * std::abs(second - first)) return true;
+    return (first >= 0.0) != (middle >= 0.0);
+}
+
+/// @return the distance from the nearer end of an edge to its cut point, in [0, 1/2] of the edge.
+/// @param near  the field's value at that end; @a f gives it at a fraction of the edge from there
+template <typename Function>
+float distanceToCut(double near, Function&& f) {
+    const double middle = f(0.5);
+    // By the rule for ties the cut point may lie just beyond the middle.
+    if ((near >= 0.0) == (middle >= 0.0)) return 0.5f;
+    return float(0.5 * rootInUnitInterval(near, middle, [&](double s) { return f(0.5 * s); }));
 }
 
 } // namespace vdbtet

@@ -114,18 +114,17 @@ public:
     /// @return the cubes, by their lower corner in @a block, whose corners differ in sign.
     TileMask mixedCubes(const openvdb::Coord& block) {
         std::array<TileMask, 27> masks;
-        std::array<const TileMask*, 27> padding;
-        padding.fill(&masks[neighbourSlot(0, 0, 0)]);
+        MasksAround around;
+        around.masks.fill(&masks[neighbourSlot(0, 0, 0)]);
         for (int corner = 0; corner < 8; ++corner) {
             const int dx = corner >> 2, dy = corner >> 1 & 1, dz = corner & 1;
             const int slot = neighbourSlot(dx, dy, dz);
             masks[slot] = inside(block.offsetBy(dx, dy, dz));
-            padding[slot] = &masks[slot];
+            around.masks[slot] = &masks[slot];
         }
-        const PaddedMask padded(padding);
         TileMask any = TileMask::filled(false), all = TileMask::filled(true);
         for (int corner = 0; corner < 8; ++corner) {
-            const TileMask shifted = padded.shifted(corner >> 2, corner >> 1 & 1, corner & 1);
+            const TileMask shifted = around.shifted(corner >> 2, corner >> 1 & 1, corner & 1);
             any |= shifted;
             all &= shifted;
         }

@@ -129,11 +129,13 @@ struct Candidates {
 
 Candidates findCandidates(const Vertices& vertices, TileRef tile, bool withExtra) {
     Candidates candidates;
-    const Surroundings around(vertices.layout.neighbours[tile]);
+    const Neighbours neighbours = vertices.layout.neighbours(tile);
+    const Surroundings around(neighbours);
     for (int lattice = 0; lattice < 2; ++lattice) {
-        const PaddedMask inside = around.signs(vertices.signs, lattice);
-        const PaddedMask manifold = around.masks(vertices.labels.manifold, lattice);
-        const TileMask in1 = inside.shifted(0, 0, 0), on1 = manifold.shifted(0, 0, 0);
+        const MasksAround inside = around.signs(vertices.signs, lattice);
+        const MasksAround manifold = around.masks(vertices.labels.manifold, lattice);
+        const TileMask& in1 = vertices.signs[tile][lattice];
+        const TileMask& on1 = vertices.labels.manifold[tile][lattice];
         for (int axis = 0; axis < 3; ++axis) {
             const TileMask in2 = inside.shifted(axis == 0, axis == 1, axis == 2);
             const TileMask on2 = manifold.shifted(axis == 0, axis == 1, axis == 2);
@@ -147,54 +149,64 @@ Candidates findCandidates(const Vertices& vertices, TileRef tile, bool withExtra
     return candidates;
 }
 
-struct FlipCounts {
-    std::int64_t active = 0, extra = 0, lastResort = 0, conflicts = 0;
+/// The flips of one tile.
+struct TileFlips {
+    std::vector<std::uint16_t> codes;
+    std::int32_t active = 0, extra = 0, lastResort = 0, conflicts = 0;
 };
 
-void flipTile(const Candidates& candidates, const LocalVertices& local, TileFlips& flips,
-              FlipCounts& counts) {
+TileFlips flipTile(const Candidates& candidates, const LocalVertices& local) {
+    TileFlips flips;
     for (bcc::Lattice lattice : {bcc::A, bcc::B}) {
         for (int axis = 0; axis < 3; ++axis) {
-            auto& slices = flips[lattice][axis];
+            const auto octahedron = [&](int n) {
+                return localOctahedron(lattice, axis, localIndex(lattice, n));
+            };
+            const auto add = [&](bcc::Slice slice, int n) {
+                flips.codes.push_back(Flips::encode({lattice, axis, slice, n}));
+            };
             candidates.active[lattice][axis].forEach([&](int n) {
-                const bcc::Slice slice =
-                    chooseActiveSlice(local, localOctahedron(lattice, axis, localIndex(lattice, n)));
-                slices[slice - bcc::SliceA].set(n);
-                ++counts.active;
+                add(chooseActiveSlice(local, octahedron(n)), n);
+                ++flips.active;
             });
             candidates.extra[lattice][axis].forEach([&](int n) {
-                const ExtraFlip flip =
-                    chooseExtraSlice(local, localOctahedron(lattice, axis, localIndex(lattice, n)));
-                counts.conflicts += flip.conflict;
+                const ExtraFlip flip = chooseExtraSlice(local, octahedron(n));
+                flips.conflicts += flip.conflict;
                 if (flip.slice == bcc::S) return;
-                slices[flip.slice - bcc::SliceA].set(n);
-                ++(flip.conflict ? counts.lastResort : counts.extra);
+                add(flip.slice, n);
+                ++(flip.conflict ? flips.lastResort : flips.extra);
             });
         }
     }
+    std::sort(flips.codes.begin(), flips.codes.end());
+    return flips;
 }
 
 } // namespace
 
 Flips chooseFlips(const Vertices& vertices, int version, Interrupt& interrupt) {
-    const std::int64_t tiles = std::int64_t(vertices.layout.surfaceTiles.size());
-    Flips flips;
-    flips.tiles.resize(tiles);
-    std::vector<FlipCounts> counts(tiles);
+    const std::int64_t tiles = vertices.layout.surfaceCount();
+    std::vector<TileFlips> parts(tiles);
     parallelRanges(tiles, interrupt, [&](std::int64_t begin, std::int64_t end) {
         LocalVertices local;
         for (std::int64_t t = begin; t < end; ++t) {
             const Candidates candidates = findCandidates(vertices, TileRef(t), version >= 2);
             if (!candidates.any) continue;
             local.load(vertices, TileRef(t));
-            flipTile(candidates, local, flips.tiles[t], counts[t]);
+            parts[t] = flipTile(candidates, local);
         }
     });
-    for (const FlipCounts& c : counts) {
-        flips.active += c.active;
-        flips.extra += c.extra;
-        flips.lastResort += c.lastResort;
-        flips.conflicts += c.conflicts;
+
+    Flips flips;
+    flips.first.reserve(tiles + 1);
+    flips.first.push_back(0);
+    for (const TileFlips& part : parts) {
+        flips.codes.insert(flips.codes.end(), part.codes.begin(), part.codes.end());
+        flips.first.push_back(std::int64_t(flips.codes.size()));
+        flips.active += part.active;
+        flips.extra += part.extra;
+        flips.lastResort += part.lastResort;
+        flips.conflicts += part.conflicts;
     }
     return flips;
 }

@@ -13,11 +13,32 @@
 
 namespace vdbtet {
 
-/// The flipped spines of a tile, by lattice, axis and slice (0 for A, 1 for B), at their lower ends.
-using TileFlips = std::array<std::array<std::array<TileMask, 2>, 3>, 2>;
+/// A flipped spine of a tile.
+struct Flip {
+    bcc::Lattice lattice;
+    int axis;
+    bcc::Slice slice; ///< A or B
+    int vertex;       ///< the bit of the spine's lower end
+};
 
+/// The flips of all surface tiles; most tiles have few.
 struct Flips {
-    std::vector<TileFlips> tiles; ///< of each surface tile
+    std::vector<std::int64_t> first; ///< of each surface tile, and their number at the end
+    std::vector<std::uint16_t> codes;
+
+    static std::uint16_t encode(const Flip& f) {
+        return std::uint16_t(((f.lattice * 3 + f.axis) * 2 + (f.slice - bcc::SliceA)) << 9 | f.vertex);
+    }
+    static Flip decode(std::uint16_t code) {
+        const int kind = code >> 9;
+        return {bcc::Lattice(kind / 6), kind / 2 % 3, bcc::Slice(bcc::SliceA + kind % 2), code & 511};
+    }
+
+    /// Call @a visit(Flip) for each flip of a surface tile, by lattice, then axis, then slice, then bit.
+    template <typename Visit>
+    void forEach(TileRef tile, Visit&& visit) const {
+        for (std::int64_t i = first[tile]; i < first[tile + 1]; ++i) visit(decode(codes[i]));
+    }
 
     std::int64_t active = 0;     ///< flipped by Algorithm 4
     std::int64_t extra = 0;      ///< flipped by Algorithm 5

@@ -8,23 +8,18 @@ namespace {
 
 using LatticeMasks = std::array<TileMask, 2>;
 
-/// A vertex of a surface tile.
-struct VertexRef {
-    TileRef tile;
-    bcc::Lattice lattice;
-    int vertex;
-};
-
 class Labelling {
 public:
-    Labelling(const Layout& layout, const Cuts& cuts, Interrupt& interrupt)
-        : mLayout(layout), mCuts(cuts), mInterrupt(interrupt), mUndecided(layout.surfaceTiles.size()),
+    Labelling(const Layout& layout, const Arrows& arrows, Interrupt& interrupt)
+        : mLayout(layout), mArrows(arrows), mInterrupt(interrupt), mUndecided(layout.surfaceTiles.size()),
           mManifold(layout.surfaceTiles.size()) {
         // A vertex without arrows is trivially in K. Then so is every vertex that is neither manifold nor
         // undecided.
         forTiles([&](TileRef t) {
-            for (int lattice = 0; lattice < 2; ++lattice) {
-                for (const TileMask& mask : mCuts.arrows[t][lattice]) mUndecided[t][lattice] |= mask;
+            const Neighbours neighbours = mLayout.neighbours(t);
+            for (bcc::Lattice lattice : {bcc::A, bcc::B}) {
+                for (const TileMask& mask : mArrows.leaving(t, neighbours, lattice))
+                    mUndecided[t][lattice] |= mask;
             }
         });
     }
@@ -59,15 +54,16 @@ private:
     void settleTile(TileRef t, bcc::Lattice lattice) {
         TileMask& undecided = mUndecided[t][lattice];
         if (!undecided.any()) return;
-        const Surroundings around(mLayout.neighbours[t]);
-        const PaddedMask farManifold = around.masks(mManifold, bcc::other(lattice));
-        const PaddedMask farUndecided = around.masks(mUndecided, bcc::other(lattice));
+        const Neighbours neighbours = mLayout.neighbours(t);
+        const EdgeMasks leaving = mArrows.leaving(t, neighbours, lattice);
+        const Surroundings around(neighbours);
+        const MasksAround farManifold = around.masks(mManifold, bcc::other(lattice));
+        const MasksAround farUndecided = around.masks(mUndecided, bcc::other(lattice));
         TileMask intoK, notIntoManifold;
         for (int d = 0; d < bcc::kDirections; ++d) {
-            const TileMask& arrows = mCuts.arrows[t][lattice][d];
-            if (!arrows.any()) continue;
+            if (!leaving[d].any()) continue;
             const bcc::Step step = bcc::shortEdge(lattice, d);
-            const TileMask toOther = arrows & ~farManifold.shifted(step.x, step.y, step.z);
+            const TileMask toOther = leaving[d] & ~farManifold.shifted(step.x, step.y, step.z);
             intoK |= toOther & ~farUndecided.shifted(step.x, step.y, step.z);
             notIntoManifold |= toOther;
         }
@@ -75,12 +71,12 @@ private:
         undecided &= ~intoK & notIntoManifold;
     }
 
-    /// The vertex at the other end of a cut edge; such a vertex always lies in a surface tile.
-    VertexRef farEnd(const VertexRef& v, int direction) const {
-        const bcc::Step step = bcc::shortEdge(v.lattice, direction);
-        const int x = (v.vertex >> 6) + step.x, y = (v.vertex >> 3 & 7) + step.y, z = (v.vertex & 7) + step.z;
-        const int slot = neighbourSlot(tileStep(x), tileStep(y), tileStep(z));
-        return {mLayout.neighbours[v.tile][slot], bcc::other(v.lattice), TileMask::bit(x & 7, y & 7, z & 7)};
+    /// @return the arrows that leave the vertices of one lattice of a tile; unpacked once for the many
+    /// vertices of a tile in a row.
+    const EdgeMasks& leaving(TileRef tile, bcc::Lattice lattice) {
+        Unpacked& cache = mUnpacked[lattice];
+        if (cache.tile != tile) cache = {tile, mArrows.leaving(tile, mLayout.neighbours(tile), lattice)};
+        return cache.arrows;
     }
 
     bool undecided(const VertexRef& v) const { return mUndecided[v.tile][v.lattice].test(v.vertex); }
@@ -88,11 +84,11 @@ private:
 
     /// Rule 1 for one vertex.
     /// @return true if it settled the vertex
-    bool settle(const VertexRef& v) {
+    bool settle(const VertexRef& v, const Neighbours& neighbours) {
         bool allManifold = true;
         for (int d = 0; d < bcc::kDirections; ++d) {
-            if (!mCuts.arrows[v.tile][v.lattice][d].test(v.vertex)) continue;
-            const VertexRef end = farEnd(v, d);
+            if (!leaving(v.tile, v.lattice)[d].test(v.vertex)) continue;
+            const VertexRef end = farEnd(neighbours, v, d);
             if (manifold(end)) continue;
             allManifold = false;
             if (!undecided(end)) {
@@ -117,11 +113,13 @@ private:
         while (!work.empty()) {
             const VertexRef v = work.front();
             work.pop_front();
-            if (!undecided(v) || !settle(v)) continue;
+            if (!undecided(v)) continue;
+            const Neighbours neighbours = mLayout.neighbours(v.tile);
+            if (!settle(v, neighbours)) continue;
             for (int d = 0; d < bcc::kDirections; ++d) {
-                const VertexRef from = farEnd(v, d);
+                const VertexRef from = farEnd(neighbours, v, d);
                 if (from.tile < 0 || !undecided(from)) continue;
-                if (mCuts.arrows[from.tile][from.lattice][bcc::opposite(d)].test(from.vertex))
+                if (leaving(from.tile, from.lattice)[bcc::opposite(d)].test(from.vertex))
                     work.push_back(from);
             }
         }
@@ -137,16 +135,22 @@ private:
     }
 
     const Layout& mLayout;
-    const Cuts& mCuts;
+    const Arrows& mArrows;
     Interrupt& mInterrupt;
     std::vector<LatticeMasks> mUndecided;
     std::vector<LatticeMasks> mManifold;
+
+    struct Unpacked {
+        TileRef tile = kOutside;
+        EdgeMasks arrows;
+    };
+    Unpacked mUnpacked[2]; ///< by lattice
 };
 
 } // namespace
 
-Labels labelVertices(const Layout& layout, const Cuts& cuts, Interrupt& interrupt) {
-    return Labelling(layout, cuts, interrupt).run();
+Labels labelVertices(const Layout& layout, const Arrows& arrows, Interrupt& interrupt) {
+    return Labelling(layout, arrows, interrupt).run();
 }
 
 } // namespace vdbtet

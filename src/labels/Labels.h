@@ -3,7 +3,7 @@
 #pragma once
 
 #include "Parallel.h"
-#include "cuts/Cuts.h"
+#include "cuts/Arrows.h"
 #include "tiles/Layout.h"
 
 #include <array>
@@ -27,6 +27,6 @@ struct Labels {
     std::int64_t tieBroken = 0;    ///< vertices settled by rule 2
 };
 
-Labels labelVertices(const Layout& layout, const Cuts& cuts, Interrupt& interrupt);
+Labels labelVertices(const Layout& layout, const Arrows& arrows, Interrupt& interrupt);
 
 } // namespace vdbtet

@@ -6,7 +6,8 @@ namespace {
 
 /// @return the vertices of @a lattice in a tile that have a neighbour, by a short or a long edge, in the
 /// interior.
-TileMask nextToInterior(const PaddedMask& sameLattice, const PaddedMask& otherLattice, bcc::Lattice lattice) {
+TileMask nextToInterior(const MasksAround& sameLattice, const MasksAround& otherLattice,
+                        bcc::Lattice lattice) {
     TileMask mask;
     for (int axis = 0; axis < 3; ++axis) {
         for (int step : {-1, 1}) {
@@ -25,29 +26,21 @@ TileMask nextToInterior(const PaddedMask& sameLattice, const PaddedMask& otherLa
 Numbering numberVertices(const Vertices& vertices, Interrupt& interrupt) {
     const Layout& layout = vertices.layout;
     const auto& manifold = vertices.labels.manifold;
-    const std::int64_t tiles = std::int64_t(layout.surfaceTiles.size());
-
-    std::vector<TileSigns> interior(tiles);
-    parallelRanges(tiles, interrupt, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t t = begin; t < end; ++t) {
-            for (int lattice = 0; lattice < 2; ++lattice) {
-                interior[t][lattice] = vertices.signs[t][lattice] & ~manifold[t][lattice];
-            }
-        }
-    });
+    const std::int64_t tiles = layout.surfaceCount();
 
     Numbering numbering;
     numbering.used.resize(tiles);
     parallelRanges(tiles, interrupt, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t t = begin; t < end; ++t) {
-            numbering.used[t] = interior[t];
+            for (int lattice = 0; lattice < 2; ++lattice) {
+                numbering.used[t][lattice] = vertices.signs[t][lattice] & ~manifold[t][lattice];
+            }
             if (!manifold[t][bcc::A].any() && !manifold[t][bcc::B].any()) continue;
-            const Surroundings around(layout.neighbours[t]);
-            const PaddedMask padded[2] = {around.signs(interior, bcc::A), around.signs(interior, bcc::B)};
+            const Interior interior(vertices, layout.neighbours(TileRef(t)));
             for (bcc::Lattice lattice : {bcc::A, bcc::B}) {
                 numbering.used[t][lattice] |=
                     manifold[t][lattice] &
-                    nextToInterior(padded[lattice], padded[bcc::other(lattice)], lattice);
+                    nextToInterior(interior.masks(lattice), interior.masks(bcc::other(lattice)), lattice);
             }
         }
     });

@@ -31,21 +31,40 @@ std::vector<Layout::Column> columnsOf(const std::vector<Layout::Span>& spans) {
 
 } // namespace
 
-std::int64_t Layout::find(const Coord& tile) const {
-    const auto column =
-        std::lower_bound(columns.begin(), columns.end(), tile, [](const Column& c, const Coord& t) {
-            return c.x != t.x() ? c.x < t.x() : c.y < t.y();
-        });
-    if (column == columns.end() || column->x != tile.x() || column->y != tile.y()) return -1;
-    const auto after = std::upper_bound(spans.begin() + column->begin, spans.begin() + column->end, tile.z(),
-                                        [](int z, const Span& s) { return z < s.first.z(); });
-    if (after == spans.begin() + column->begin) return -1;
-    const auto span = after - 1;
-    return tile.z() < span->first.z() + span->count ? span - spans.begin() : -1;
+std::array<std::int64_t, 27> Layout::spansAround(const Coord& tile) const {
+    std::array<std::int64_t, 27> around;
+    around.fill(-1);
+    for (int dx = -1; dx <= 1; ++dx) {
+        auto column = std::lower_bound(
+            columns.begin(), columns.end(), Coord(tile.x() + dx, tile.y() - 1, 0),
+            [](const Column& c, const Coord& t) { return c.x != t.x() ? c.x < t.x() : c.y < t.y(); });
+        for (; column != columns.end() && column->x == tile.x() + dx && column->y <= tile.y() + 1; ++column) {
+            // Backwards from the last span that does not start above the highest neighbour.
+            auto span = std::upper_bound(spans.begin() + column->begin, spans.begin() + column->end,
+                                         tile.z() + 1, [](int z, const Span& s) { return z < s.first.z(); });
+            for (int dz = 1; dz >= -1; --dz) {
+                const int z = tile.z() + dz;
+                while (span != spans.begin() + column->begin && (span - 1)->first.z() > z) --span;
+                if (span == spans.begin() + column->begin) break;
+                if (z < (span - 1)->first.z() + (span - 1)->count) {
+                    around[neighbourSlot(dx, column->y - tile.y(), dz)] = span - 1 - spans.begin();
+                }
+            }
+        }
+    }
+    return around;
 }
 
-Layout makeLayout(std::vector<Coord> surfaceTiles, const std::vector<TileSigns>& signs,
-                  Interrupt& interrupt) {
+Neighbours Layout::neighbours(TileRef tile) const {
+    const auto around = spansAround(surfaceTiles[tile]);
+    Neighbours neighbours;
+    for (int slot = 0; slot < 27; ++slot) {
+        neighbours[slot] = around[slot] < 0 ? kOutside : spans[around[slot]].surface;
+    }
+    return neighbours;
+}
+
+Layout makeLayout(std::vector<Coord> surfaceTiles, const std::vector<TileSigns>& signs) {
     // Away from the surface a tile has one sign, which it shares with the nearest vertices of the next tile.
     constexpr int kBottom = TileMask::bit(0, 0, 0), kTop = TileMask::bit(0, 0, 7);
     Layout layout;
@@ -55,7 +74,6 @@ Layout makeLayout(std::vector<Coord> surfaceTiles, const std::vector<TileSigns>&
         const bool starts = t == 0 || !sameColumn(surfaceTiles[t - 1], tile);
         const bool ends = t + 1 == count || !sameColumn(surfaceTiles[t + 1], tile);
         if (starts && signs[t][bcc::A].test(kBottom)) throwUnbounded();
-        layout.surfaceSpans.push_back(std::int64_t(layout.spans.size()));
         layout.spans.push_back({tile, 1, TileRef(t)});
         if (!signs[t][bcc::A].test(kTop)) continue;
         if (ends) throwUnbounded();
@@ -64,17 +82,6 @@ Layout makeLayout(std::vector<Coord> surfaceTiles, const std::vector<TileSigns>&
     }
     layout.columns = columnsOf(layout.spans);
     layout.surfaceTiles = std::move(surfaceTiles);
-
-    layout.neighbours.resize(layout.surfaceTiles.size());
-    parallelRanges(count, interrupt, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t t = begin; t < end; ++t) {
-            for (int slot = 0; slot < 27; ++slot) {
-                const Coord step(slot / 9 - 1, slot / 3 % 3 - 1, slot % 3 - 1);
-                const std::int64_t span = layout.find(layout.surfaceTiles[t] + step);
-                layout.neighbours[t][slot] = span < 0 ? kOutside : layout.spans[span].surface;
-            }
-        }
-    });
     return layout;
 }
 

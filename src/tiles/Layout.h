@@ -2,7 +2,6 @@
 /// Which tiles the mesh touches, in which order, and who is whose neighbour.
 #pragma once
 
-#include "Parallel.h"
 #include "bits/TileMask.h"
 #include "field/Field.h"
 
@@ -34,59 +33,62 @@ struct Layout {
         TileRef surface = kInside; ///< the index of the surface tile, or kInside for a run of interior tiles
     };
 
-    std::vector<Span> spans;
-    std::vector<openvdb::Coord> surfaceTiles; ///< ascending
-    std::vector<std::int64_t> surfaceSpans;   ///< the span of each surface tile
-    std::vector<Neighbours> neighbours;       ///< of each surface tile
-
-    /// @return the span that holds @a tile, or -1 for a tile outside.
-    std::int64_t find(const openvdb::Coord& tile) const;
-
     /// The tiles of equal x and y.
     struct Column {
         int x, y;
         std::int64_t begin, end; ///< its spans
     };
+
+    std::vector<Span> spans;
     std::vector<Column> columns;
+    std::vector<openvdb::Coord> surfaceTiles; ///< ascending
+
+    std::int64_t surfaceCount() const { return std::int64_t(surfaceTiles.size()); }
+
+    /// The spans that hold a tile and its neighbours, by neighbourSlot(); -1 for tiles outside.
+    std::array<std::int64_t, 27> spansAround(const openvdb::Coord& tile) const;
+
+    /// @return the neighbours of a surface tile.
+    Neighbours neighbours(TileRef tile) const;
 };
 
 /// @brief Lay out the tiles.
 /// @param surfaceTiles  as Field::surfaceTiles() gives them
 /// @param signs         of each surface tile
 /// @throw UnboundedInside where a column of tiles starts or ends inside
-Layout makeLayout(std::vector<openvdb::Coord> surfaceTiles, const std::vector<TileSigns>& signs,
-                  Interrupt& interrupt);
+Layout makeLayout(std::vector<openvdb::Coord> surfaceTiles, const std::vector<TileSigns>& signs);
 
-/// Gathers the masks of a tile and its neighbours.
+/// Gathers the masks of a tile and its neighbours, which must outlive it.
 class Surroundings {
 public:
     explicit Surroundings(const Neighbours& neighbours) : mNeighbours(neighbours) {}
 
     /// The inside vertices.
-    PaddedMask signs(const std::vector<TileSigns>& signs, int lattice) const {
-        return gather(signs, lattice, mFull);
+    MasksAround signs(const std::vector<TileSigns>& signs, int lattice) const {
+        return gather(signs, lattice, kFull);
     }
 
     /// A mask that is empty away from the surface.
     template <typename Masks>
-    PaddedMask masks(const std::vector<Masks>& masks, int lattice) const {
-        return gather(masks, lattice, mEmpty);
+    MasksAround masks(const std::vector<Masks>& masks, int lattice) const {
+        return gather(masks, lattice, kEmpty);
     }
 
 private:
+    static inline const TileMask kEmpty = TileMask::filled(false);
+    static inline const TileMask kFull = TileMask::filled(true);
+
     template <typename Masks>
-    PaddedMask gather(const std::vector<Masks>& masks, int lattice, const TileMask& interior) const {
-        std::array<const TileMask*, 27> all;
+    MasksAround gather(const std::vector<Masks>& masks, int lattice, const TileMask& interior) const {
+        MasksAround around;
         for (int slot = 0; slot < 27; ++slot) {
             const TileRef tile = mNeighbours[slot];
-            all[slot] = tile >= 0 ? &masks[tile][lattice] : tile == kInside ? &interior : &mEmpty;
+            around.masks[slot] = tile >= 0 ? &masks[tile][lattice] : tile == kInside ? &interior : &kEmpty;
         }
-        return PaddedMask(all);
+        return around;
     }
 
     const Neighbours& mNeighbours;
-    TileMask mEmpty = TileMask::filled(false);
-    TileMask mFull = TileMask::filled(true);
 };
 
 } // namespace vdbtet

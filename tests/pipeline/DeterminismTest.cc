@@ -1,0 +1,68 @@
+// The mesh is the same, bit for bit, for any number of threads and from run to run.
+#include "support/Catch.h"
+#include "support/Fixtures.h"
+#include "support/MeshMatch.h"
+#include "support/Meshing.h"
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+using namespace vdbtet;
+using namespace vdbtet::test;
+
+namespace {
+
+Meshed meshWithThreads(int threads, const openvdb::GridBase& grid, const Options& options) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
+    tbb::task_arena arena(threads);
+    Meshed result;
+    arena.execute([&] { result = meshOf(grid, options); });
+    return result;
+}
+
+void requireSameReport(const Report& a, const Report& b) {
+    CHECK(a.points == b.points);
+    CHECK(a.tets == b.tets);
+    CHECK(a.boundaryTriangles == b.boundaryTriangles);
+    CHECK(a.ambiguous == b.ambiguous);
+    CHECK(a.conflicts == b.conflicts);
+    CHECK(a.activeFlips == b.activeFlips);
+    CHECK(a.extraFlips == b.extraFlips);
+    CHECK(a.lastResortFlips == b.lastResortFlips);
+    CHECK(a.surfaceTiles == b.surfaceTiles);
+    CHECK(a.cutEdges == b.cutEdges);
+    CHECK(a.tieBroken == b.tieBroken);
+    CHECK(a.angles.min == b.angles.min);
+    CHECK(a.angles.max == b.angles.max);
+    CHECK(a.angles.histogram == b.angles.histogram);
+    CHECK(a.bounds == b.bounds);
+}
+
+void requireDeterministic(const openvdb::GridBase& grid, const Options& options) {
+    const Meshed alone = meshWithThreads(1, grid, options);
+    for (const int threads : {1, 2, 4}) {
+        const Meshed other = meshWithThreads(threads, grid, options);
+        CAPTURE(threads);
+        requireIdentical(alone.mesh, other.mesh);
+        requireSameReport(alone.report, other.report);
+    }
+}
+
+} // namespace
+
+TEST_CASE("any number of threads gives the same bytes: a shape of many tiles") {
+    requireDeterministic(*levelSet(torus({0.3, -0.2, 0.1}, 25, 11)), atVoxels(0.9));
+    requireDeterministic(*levelSet(box({-30.2, -20.1, -25.7}, {31.1, 24.6, 28.3})), atVoxels(1.0));
+}
+
+TEST_CASE("any number of threads gives the same bytes: noise") {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed)
+        requireDeterministic(*levelSet(noiseBall(seed, {0.1, 0.2, 0.3}, 22, 1.5)), atVoxels(0.9));
+}
+
+TEST_CASE("any number of threads gives the same bytes: ties and cycles") {
+    requireDeterministic(*randomSigns(40, 1), atVoxels(1.0));
+    requireDeterministic(*randomCuts(24, 2, 0.7), atVoxels(2.0));
+    // Every cut point is in the middle of its edge.
+    requireDeterministic(*levelSet(box({-10.5, -10.5, -10.5}, {10.5, 10.5, 10.5})), atVoxels(1.0));
+}

@@ -1,0 +1,146 @@
+// What a sink may rely on: exact totals, then chunks in order, and its own exceptions.
+#include "support/Catch.h"
+#include "support/Fixtures.h"
+#include "support/MeshMatch.h"
+#include "support/Meshing.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+using namespace vdbtet;
+using namespace vdbtet::test;
+
+namespace {
+
+/// Checks the protocol as it goes.
+struct StrictSink final : MeshSink {
+    bool begin(const MeshTotals& announced) override {
+        CHECK(begins++ == 0);
+        totals = announced;
+        return wantsChunks;
+    }
+    void chunk(const MeshChunk& chunk) override {
+        CHECK(begins == 1);
+        CHECK(ends == 0);
+        CHECK(chunk.firstPoint == points);
+        CHECK(chunk.firstTet == tets);
+        points += std::int64_t(chunk.points.size());
+        tets += std::int64_t(chunk.tets.size());
+        for (const openvdb::Vec3d& p : chunk.points) bounds.expand(p);
+        for (const Tet& tet : chunk.tets)
+            for (const std::int64_t id : tet) outOfRange += id < 0 || id >= totals.points;
+        largest = std::max(largest, chunk.points.size() + chunk.tets.size());
+        ++chunks;
+    }
+    void end() override { CHECK(ends++ == 0); }
+
+    bool wantsChunks = true;
+    MeshTotals totals;
+    openvdb::BBoxd bounds;
+    std::int64_t points = 0, tets = 0, outOfRange = 0, chunks = 0;
+    std::size_t largest = 0;
+    int begins = 0, ends = 0;
+};
+
+struct Refusal : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Throws at one of its calls.
+struct ThrowingSink final : MeshSink {
+    enum class Where { Begin, FirstChunk, LaterChunk, End };
+    explicit ThrowingSink(Where w) : where(w) {}
+
+    bool begin(const MeshTotals&) override {
+        if (where == Where::Begin) throw Refusal("no room");
+        return true;
+    }
+    void chunk(const MeshChunk&) override {
+        if (++chunks == (where == Where::FirstChunk ? 1 : where == Where::LaterChunk ? 3 : 0))
+            throw Refusal("no room");
+    }
+    void end() override {
+        ended = true;
+        if (where == Where::End) throw Refusal("no room");
+    }
+
+    Where where;
+    int chunks = 0;
+    bool ended = false;
+};
+
+openvdb::FloatGrid::Ptr manyTiles() { return levelSet(sphere({0.3, -0.2, 0.1}, 41.3)); }
+
+} // namespace
+
+TEST_CASE("totals are exact and chunks come in order") {
+    for (const double voxels : {0.8, 1.0, 3.0}) {
+        StrictSink sink;
+        const Report report = volumeToTets(*manyTiles(), sink, atVoxels(voxels));
+        CHECK(sink.ends == 1);
+        CHECK(sink.totals.points == sink.points);
+        CHECK(sink.totals.tets == sink.tets);
+        CHECK(sink.outOfRange == 0);
+        CHECK(sink.totals.bounds == sink.bounds);
+        CHECK(sink.totals.bounds == report.bounds);
+        CHECK(report.points == sink.points);
+        CHECK(report.tets == sink.tets);
+    }
+}
+
+TEST_CASE("chunks do not grow with the mesh") {
+    // A tenfold larger mesh comes in more chunks, not in larger ones.
+    StrictSink small, large;
+    volumeToTets(*levelSet(sphere({0.3, -0.2, 0.1}, 41.3)), small);
+    volumeToTets(*levelSet(sphere({0.3, -0.2, 0.1}, 88.9)), large);
+    CHECK(small.chunks > 1);
+    CHECK(large.tets > 9 * small.tets);
+    CHECK(large.largest < 2 * small.largest);
+}
+
+TEST_CASE("a sink that wants totals alone gets no chunks but the whole report") {
+    StrictSink counting;
+    counting.wantsChunks = false;
+    const Report report = volumeToTets(*manyTiles(), counting);
+    const Meshed whole = meshOf(*manyTiles());
+    CHECK(counting.chunks == 0);
+    CHECK(counting.ends == 1);
+    CHECK_FALSE(report.cancelled);
+    CHECK(counting.totals.tets == whole.report.tets);
+    CHECK(report.points == whole.report.points);
+    CHECK(report.tets == whole.report.tets);
+    CHECK(report.boundaryTriangles == whole.report.boundaryTriangles);
+    CHECK(report.angles.min == whole.report.angles.min);
+    CHECK(report.angles.max == whole.report.angles.max);
+    CHECK(report.angles.histogram == whole.report.angles.histogram);
+}
+
+TEST_CASE("a sink's exception reaches the caller") {
+    using Where = ThrowingSink::Where;
+    for (const Where where : {Where::Begin, Where::FirstChunk, Where::LaterChunk, Where::End}) {
+        ThrowingSink sink(where);
+        CAPTURE(int(where));
+        CHECK_THROWS_AS(volumeToTets(*manyTiles(), sink), Refusal);
+        CHECK(sink.ended == (where == Where::End));
+        if (where == Where::FirstChunk) CHECK(sink.chunks == 1);
+        if (where == Where::LaterChunk) CHECK(sink.chunks == 3);
+    }
+}
+
+TEST_CASE("a mesh in memory can be filled again") {
+    TetMesh mesh;
+    volumeToTets(*manyTiles(), mesh);
+    volumeToTets(*levelSet(sphere({0.3, -0.2, 0.1}, 5.1)), mesh);
+    requireIdentical(mesh, meshOf(*levelSet(sphere({0.3, -0.2, 0.1}, 5.1))).mesh);
+}
+
+TEST_CASE("single precision suffices near the origin and not far from it") {
+    StrictSink near, far;
+    const auto nearGrid = levelSet(sphere({0.3, -0.2, 0.1}, 5.1));
+    const auto farGrid = nearGrid->deepCopy();
+    farGrid->setTransform(uniformTransform(1.0, openvdb::Vec3d(1e6)));
+    volumeToTets(*nearGrid, near);
+    volumeToTets(*farGrid, far);
+    CHECK(near.totals.float32Suffices);
+    CHECK_FALSE(far.totals.float32Suffices);
+}
