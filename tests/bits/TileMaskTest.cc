@@ -1,0 +1,83 @@
+/// Shifts and ranks of tile masks against one bit at a time.
+#include "support/Catch.h"
+#include "support/Fixtures.h"
+
+#include "bits/TileMask.h"
+
+#include <vector>
+
+namespace vdbtet::test {
+
+namespace {
+
+std::vector<TileMask> randomMasks(std::uint64_t seed) {
+    Random random(seed);
+    std::vector<TileMask> masks(27);
+    for (TileMask& mask : masks) {
+        for (auto& word : mask.words) word = random.next();
+    }
+    return masks;
+}
+
+MasksAround around(const std::vector<TileMask>& masks) {
+    MasksAround result;
+    for (int slot = 0; slot < 27; ++slot) result.masks[slot] = &masks[slot];
+    return result;
+}
+
+/// Bit (x,y,z) of the whole, each coordinate in -8..15.
+bool bitAt(const std::vector<TileMask>& masks, int x, int y, int z) {
+    return masks[neighbourSlot(tileStep(x), tileStep(y), tileStep(z))].test(
+        TileMask::bit(x & 7, y & 7, z & 7));
+}
+
+} // namespace
+
+TEST_CASE("a rank counts the set bits below", "[bits]") {
+    const TileMask mask = randomMasks(1)[0];
+    int below = 0;
+    for (int n = 0; n < TileMask::kSize; ++n) {
+        REQUIRE(mask.rank(n) == below);
+        below += mask.test(n);
+    }
+    REQUIRE(mask.count() == below);
+}
+
+TEST_CASE("forEach visits the set bits in ascending order", "[bits]") {
+    const TileMask mask = randomMasks(2)[0];
+    std::vector<int> expected, visited;
+    for (int n = 0; n < TileMask::kSize; ++n) {
+        if (mask.test(n)) expected.push_back(n);
+    }
+    mask.forEach([&](int n) { visited.push_back(n); });
+    REQUIRE(visited == expected);
+}
+
+TEST_CASE("a shifted mask reads the neighbours' bits", "[bits]") {
+    const auto masks = randomMasks(3);
+    for (int dx = -1; dx <= 1; ++dx) {
+        for (int dy = -1; dy <= 1; ++dy) {
+            for (int dz = -1; dz <= 1; ++dz) {
+                const TileMask shifted = around(masks).shifted(dx, dy, dz);
+                for (int n = 0; n < TileMask::kSize; ++n) {
+                    const int x = n >> 6, y = n >> 3 & 7, z = n & 7;
+                    if (shifted.test(n) == bitAt(masks, x + dx, y + dy, z + dz)) continue;
+                    FAIL("step " << dx << ' ' << dy << ' ' << dz << " bit " << x << ' ' << y << ' ' << z);
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("a padded row reads one bit of each neighbour", "[bits]") {
+    const auto masks = randomMasks(4);
+    for (int x = -1; x <= 8; ++x) {
+        for (int y = -1; y <= 8; ++y) {
+            unsigned expected = 0;
+            for (int z = -1; z <= 8; ++z) expected |= unsigned(bitAt(masks, x, y, z)) << (z + 1);
+            REQUIRE(around(masks).row(x, y) == expected);
+        }
+    }
+}
+
+} // namespace vdbtet::test

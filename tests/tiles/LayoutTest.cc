@@ -1,0 +1,58 @@
+/// The runs of tiles and who is whose neighbour, against a plain set of tiles.
+#include "support/Catch.h"
+#include "support/Fixtures.h"
+#include "support/Stages.h"
+
+#include <vdbtet/Errors.h>
+
+#include <map>
+
+namespace vdbtet::test {
+
+using openvdb::Coord;
+
+TEST_CASE("runs of interior tiles fill what the surface encloses", "[tiles]") {
+    const auto grid = levelSet(sphere(Vec3d(3.0, 2.0, 1.0), 40.0));
+    const Stages stages(*grid);
+    const Layout& layout = stages.layout;
+    std::map<Coord, std::int64_t> spanOf;
+    std::int64_t interior = 0;
+    for (size_t s = 0; s < layout.spans.size(); ++s) {
+        const Layout::Span& span = layout.spans[s];
+        for (int z = 0; z < span.count; ++z) {
+            const Coord tile = span.first.offsetBy(0, 0, z);
+            REQUIRE(spanOf.emplace(tile, s).second);
+            if (span.surface >= 0) {
+                REQUIRE(layout.surfaceTiles[span.surface] == tile);
+                continue;
+            }
+            ++interior;
+            const auto signs = stages.field.sampler()->signs(tile);
+            REQUIRE(signs[bcc::A].full());
+            REQUIRE(signs[bcc::B].full());
+        }
+    }
+    REQUIRE(interior > 100);
+    for (const auto& entry : spanOf) {
+        const auto around = layout.spansAround(entry.first);
+        for (int slot = 0; slot < 27; ++slot) {
+            const auto found =
+                spanOf.find(entry.first.offsetBy(slot / 9 - 1, slot / 3 % 3 - 1, slot % 3 - 1));
+            REQUIRE(around[slot] == (found == spanOf.end() ? -1 : found->second));
+        }
+    }
+}
+
+TEST_CASE("a column that starts inside is refused", "[tiles]") {
+    std::vector<TileSigns> signs(1);
+    signs[0].fill(TileMask::filled(true));
+    REQUIRE_THROWS_AS(makeLayout({Coord(0)}, signs), UnboundedInside);
+}
+
+TEST_CASE("a column that ends inside is refused", "[tiles]") {
+    std::vector<TileSigns> signs(1);
+    signs[0][bcc::A].set(TileMask::bit(0, 0, 7));
+    REQUIRE_THROWS_AS(makeLayout({Coord(0)}, signs), UnboundedInside);
+}
+
+} // namespace vdbtet::test
