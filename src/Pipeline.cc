@@ -83,7 +83,7 @@ void runPipeline(const Field& field, const Frame& frame, const Options& options,
         return product;
     };
 
-    auto tiles = stage("tiles", [&] { return field.surfaceTiles(options.maxSurfaceTiles); });
+    auto tiles = stage("tiles", [&] { return field.surfaceTiles(options.maxSurfaceTiles, interrupt); });
     if (report.cancelled) return;
     const auto signs = stage("signs", [&] { return findSigns(field, tiles, interrupt); });
     if (report.cancelled) return;

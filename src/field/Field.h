@@ -5,6 +5,7 @@
 /// interface is where the types of grids end: all later stages are plain code.
 #pragma once
 
+#include "Parallel.h"
 #include "bcc/Lattice.h"
 #include "bits/TileMask.h"
 
@@ -34,7 +35,7 @@ public:
     /// @return the tiles that the surface comes within kClearance of, in ascending order. Tile (x,y,z) owns
     /// the vertices [8x, 8x+8) x [8y, 8y+8) x [8z, 8z+8) of both lattices.
     /// @throw TooLarge for more than @a maxTiles
-    virtual std::vector<openvdb::Coord> surfaceTiles(std::int64_t maxTiles) const = 0;
+    virtual std::vector<openvdb::Coord> surfaceTiles(std::int64_t maxTiles, Interrupt& interrupt) const = 0;
 
     /// Reads the field; one for each task, since it caches.
     class Sampler {

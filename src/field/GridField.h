@@ -4,9 +4,10 @@
 
 #include "bcc/Frame.h"
 #include "field/Field.h"
+#include "field/FiniteValues.h"
 #include "field/Level.h"
 #include "field/Root.h"
-#include "field/SurfaceBlocks.h"
+#include "field/SurfaceTiles.h"
 
 #include <openvdb/tree/ValueAccessor.h>
 
@@ -233,8 +234,8 @@ public:
         requireFinite(grid);
     }
 
-    std::vector<openvdb::Coord> surfaceTiles(std::int64_t maxTiles) const override {
-        return tilesNearSurface(mGrid.tree(), mFrame, mLevel, kClearance, maxTiles);
+    std::vector<openvdb::Coord> surfaceTiles(std::int64_t maxTiles, Interrupt& interrupt) const override {
+        return tilesNearSurface(mGrid.tree(), mFrame, mLevel, kClearance, maxTiles, interrupt);
     }
 
     std::unique_ptr<Sampler> sampler() const override {

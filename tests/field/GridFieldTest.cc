@@ -35,7 +35,8 @@ bool isUniform(Field::Sampler& sampler, const Coord& tile) {
 void requireCovered(const openvdb::FloatGrid& grid, const openvdb::CoordBBox& voxels, double voxelsPerCell) {
     const Frame frame = makeFrame(grid.transform(), voxelsPerCell * shortestVoxelEdge(grid.transform()));
     const GridField<openvdb::FloatGrid> field(grid, frame, Level{0.0, true});
-    const auto tiles = field.surfaceTiles(1 << 20);
+    Interrupt interrupt(nullptr);
+    const auto tiles = field.surfaceTiles(1 << 20, interrupt);
     REQUIRE(!tiles.empty());
     const std::set<Coord> named(tiles.begin(), tiles.end());
     const auto sampler = field.sampler();

@@ -64,12 +64,12 @@ void requireSameFromFiles(const openvdb::FloatGrid::Ptr& grid) {
 
 } // namespace
 
-TEST_CASE("any compression, half floats and delayed loading give the same mesh: level set") {
+TEST_CASE("any compression and half floats and delayed loading give the same mesh: level set") {
     requireSameFromFiles(levelSet(torus({0.3, -0.2, 0.1}, 17, 7)));
 }
 
-TEST_CASE("any compression, half floats and delayed loading give the same mesh: fog volume") {
-    const auto fog = fogVolume(sphere({0.3, -0.2, 0.1}, 15), uniformTransform(0.5));
+TEST_CASE("any compression and half floats and delayed loading give the same mesh: fog volume") {
+    const auto fog = fogVolume(sphere({0.3, -0.2, 0.1}, 7), uniformTransform(0.5));
     requireSameFromFiles(fog);
 }
 

@@ -1,6 +1,7 @@
 // Builds each fixture voxel by voxel from a distance function.
 #include "support/Fixtures.h"
 
+#include <openvdb/tools/ChangeBackground.h>
 #include <openvdb/tools/Prune.h>
 #include <openvdb/tools/SignedFloodFill.h>
 
@@ -292,6 +293,14 @@ FloatGrid::Ptr turned(const FloatGrid& grid, bool cycle, const std::array<bool, 
         const Coord p = cycle ? Coord(ijk.z(), ijk.x(), ijk.y()) : ijk;
         return Coord(mirror[0] ? -p.x() : p.x(), mirror[1] ? -p.y() : p.y(), mirror[2] ? -p.z() : p.z());
     });
+}
+
+FloatGrid::Ptr negated(const FloatGrid& levelSet) {
+    const auto result = levelSet.deepCopy();
+    for (auto it = result->beginValueOn(); it; ++it) it.setValue(-*it);
+    // This also turns the inactive values, which are the background's or its negative.
+    openvdb::tools::changeBackground(result->tree(), -levelSet.background());
+    return result;
 }
 
 } // namespace vdbtet::test

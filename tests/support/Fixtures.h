@@ -75,6 +75,9 @@ openvdb::FloatGrid::Ptr shifted(const openvdb::FloatGrid& grid, const openvdb::C
 /// Index axes permuted cyclically (x takes the place of y) and then mirrored where mirror[axis] is set.
 openvdb::FloatGrid::Ptr turned(const openvdb::FloatGrid& grid, bool cycle, const std::array<bool, 3>& mirror);
 
+/// A level set turned inside out.
+openvdb::FloatGrid::Ptr negated(const openvdb::FloatGrid& levelSet);
+
 /// The shortest edge of a voxel, world units.
 double voxelEdge(const openvdb::math::Transform& transform);
 

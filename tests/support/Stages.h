@@ -24,9 +24,9 @@ struct Stages {
     explicit Stages(const openvdb::FloatGrid& grid, double voxels = 1.0)
         : field(grid, makeFrame(grid.transform(), voxels * shortestVoxelEdge(grid.transform())),
                 Level{0.0, true}),
-          signs(findSigns(field, field.surfaceTiles(1 << 20), interrupt)),
-          layout(makeLayout(field.surfaceTiles(1 << 20), signs)), arrows(field, layout, signs, interrupt),
-          labels(labelVertices(layout, arrows, interrupt)) {}
+          signs(findSigns(field, field.surfaceTiles(1 << 20, interrupt), interrupt)),
+          layout(makeLayout(field.surfaceTiles(1 << 20, interrupt), signs)),
+          arrows(field, layout, signs, interrupt), labels(labelVertices(layout, arrows, interrupt)) {}
 };
 
 } // namespace vdbtet::test
