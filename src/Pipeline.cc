@@ -95,7 +95,7 @@ void runPipeline(const Field& field, const Frame& frame, const Options& options,
     if (report.cancelled) return;
     report.cutEdges = arrows->cutEdges();
     if (report.cutEdges == 0)
-        throw NoSurface("no value crosses the isovalue at this spacing, so there is nothing to mesh");
+        throw NoSurface("the shape slips between the lattice points; use a finer spacing");
     const Labels labels = stage("labels", [&] { return labelVertices(layout, *arrows, interrupt); });
     if (report.cancelled) return;
     report.backLabelled = labels.backLabelled;

@@ -4,7 +4,9 @@
 
 #include "Pipeline.h"
 #include "field/GridField.h"
+#include "field/ValueRange.h"
 
+#include <chrono>
 #include <cmath>
 #include <sstream>
 
@@ -62,6 +64,15 @@ Level chooseLevel(const openvdb::GridBase& grid, double background, const Option
     return level;
 }
 
+void requireInside(const ValueRange& values, const Level& level) {
+    if (level.phi(values.min) >= 0.0 || level.phi(values.max) >= 0.0) return;
+    std::ostringstream message;
+    message << "no value is " << (level.insideIsBelow ? "below" : "above") << " the isovalue "
+            << level.isovalue << ", the values being from " << values.min << " to " << values.max
+            << "; choose another isovalue";
+    throw NoSurface(message.str());
+}
+
 template <typename GridT>
 Report meshGrid(const GridT& grid, MeshSink& sink, const Options& options,
                 openvdb::util::NullInterrupter* interrupter) {
@@ -73,6 +84,10 @@ Report meshGrid(const GridT& grid, MeshSink& sink, const Options& options,
     report.spacing = options.spacing.value_or(options.voxels * report.voxelSize);
     const Frame frame = makeFrame(grid.transform(), report.spacing);
     const Level level = chooseLevel(grid, double(grid.background()), options, report);
+    const auto start = std::chrono::steady_clock::now();
+    requireInside(scanValues(grid), level);
+    report.stages.push_back(
+        {"scan", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()});
     const GridField<GridT> field(grid, frame, level);
     runPipeline(field, frame, options, sink, interrupter, report);
     return report;

@@ -4,7 +4,6 @@
 
 #include "bcc/Frame.h"
 #include "field/Field.h"
-#include "field/FiniteValues.h"
 #include "field/Level.h"
 #include "field/Root.h"
 #include "field/SurfaceTiles.h"
@@ -227,12 +226,9 @@ private:
 template <typename GridT>
 class GridField final : public Field {
 public:
-    /// Both arguments must outlive the field.
-    /// @throw BadValue where the grid holds NaN or infinite values
+    /// The grid must outlive the field, and hold finite values only.
     GridField(const GridT& grid, const Frame& frame, const Level& level)
-        : mGrid(grid), mFrame(frame), mLevel(level), mOnVoxels(frame.toIndex == openvdb::Mat3d::identity()) {
-        requireFinite(grid);
-    }
+        : mGrid(grid), mFrame(frame), mLevel(level), mOnVoxels(frame.toIndex == openvdb::Mat3d::identity()) {}
 
     std::vector<openvdb::Coord> surfaceTiles(std::int64_t maxTiles, Interrupt& interrupt) const override {
         return tilesNearSurface(mGrid.tree(), mFrame, mLevel, kClearance, maxTiles, interrupt);
