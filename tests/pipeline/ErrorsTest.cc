@@ -1,6 +1,7 @@
 // What cannot be meshed is refused, by an exception that says why.
 #include "support/Catch.h"
 #include "support/Fixtures.h"
+#include "support/MemoryLimit.h"
 #include "support/Meshing.h"
 
 #include <vdbtet/Errors.h>
@@ -29,13 +30,13 @@ struct UntouchedSink final : MeshSink {
 template <typename Exception>
 void requireRefused(const openvdb::GridBase& grid, const Options& options = {}) {
     UntouchedSink sink;
-    REQUIRE_THROWS_AS(volumeToTets(grid, sink, options), Exception);
-    CHECK(sink.calls == 0);
     try {
         volumeToTets(grid, sink, options);
-    } catch (const Error& error) {
+        FAIL("the grid was not refused");
+    } catch (const Exception& error) {
         CHECK(std::string(error.what()).size() > 20);
     }
+    CHECK(sink.calls == 0);
 }
 
 Options with(const std::function<void(Options&)>& change) {
@@ -122,8 +123,17 @@ TEST_CASE("surfaces of too many tiles are refused") {
         for (int y = -8192; y < 8192; y += 4096)
             for (int z = -8192; z < 8192; z += 4096) bomb->tree().addTile(3, Coord(x, y, z), -3.0f, true);
     requireRefused<TooLarge>(*bomb);
-    // So fine a lattice that a small ball is as large.
-    requireRefused<TooLarge>(*ball(), with([](Options& o) { o.voxels = 1e-4; }));
+}
+
+TEST_CASE("a lattice too fine for its surface is refused before it takes memory") {
+    for (const double voxels : {1e-2, 1e-3, 1e-4, 1e-9}) {
+        CAPTURE(voxels);
+        const MemoryLimit limit(std::uint64_t(1) << 30);
+        requireRefused<TooLarge>(*ball(), with([&](Options& o) {
+            o.voxels = voxels;
+            o.maxSurfaceTiles = 100000;
+        }));
+    }
 }
 
 TEST_CASE("lattices beyond the precision of coordinates are refused") {

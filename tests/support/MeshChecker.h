@@ -31,8 +31,10 @@ struct MeshFigures {
     double volume = 0;
     double minAngle = 180; ///< dihedral, degrees
     double maxAngle = 0;
-    /// Angles below 10 i degrees, less and more a millionth of a degree: a lattice tet has angles of exactly
-    /// 60 and 90 degrees, which rounding puts on either side.
+    /// How far the rounding of its coordinates may turn an angle, degrees.
+    double precision = 0;
+    /// Angles below 10 i degrees by that much at least, and at most: a lattice tet has angles of exactly 60
+    /// and 90 degrees, which rounding puts on either side.
     std::array<std::int64_t, 18> surelyBelow{}, maybeBelow{};
 };
 
