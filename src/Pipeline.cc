@@ -1,3 +1,5 @@
+/// @file Pipeline.cc
+/// The stages in order (paper, Algorithm 1).
 #include "Pipeline.h"
 
 #include "cuts/Arrows.h"

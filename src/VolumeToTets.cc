@@ -1,3 +1,5 @@
+/// @file VolumeToTets.cc
+/// From a grid and options to a field, and messages that name the grid.
 #include <vdbtet/VolumeToTets.h>
 
 #include <vdbtet/Errors.h>

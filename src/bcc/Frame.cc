@@ -1,3 +1,5 @@
+/// @file Frame.cc
+/// The lattice's axes by Gram-Schmidt, free of rounding where they fall on the voxel's.
 #include "bcc/Frame.h"
 
 #include <vdbtet/Errors.h>

@@ -1,3 +1,5 @@
+/// @file Arrows.cc
+/// Signs and cut edges by mask, and the packed sets of directions (paper, sections 2.3 and 4.1).
 #include "cuts/Arrows.h"
 
 #include <numeric>

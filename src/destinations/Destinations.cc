@@ -1,3 +1,5 @@
+/// @file Destinations.cc
+/// The nearest cut point of each manifold vertex (paper, equation (6)).
 #include "destinations/Destinations.h"
 
 namespace vdbtet {

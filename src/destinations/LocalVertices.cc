@@ -1,3 +1,5 @@
+/// @file LocalVertices.cc
+/// Unpacks states and positions from the masks of 27 tiles.
 #include "destinations/LocalVertices.h"
 
 namespace vdbtet {

@@ -1,3 +1,5 @@
+/// @file Emit.cc
+/// Chunks of tiles through an ordered pipeline.
 #include "emit/Emit.h"
 
 #include <tbb/concurrent_queue.h>

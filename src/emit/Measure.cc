@@ -1,3 +1,5 @@
+/// @file Measure.cc
+/// Counts, boundary faces, angles and bounds of the mesh (paper, section 4.5).
 #include "emit/Measure.h"
 
 #include "emit/Angles.h"

@@ -1,3 +1,5 @@
+/// @file Quality.cc
+/// Dihedral angles from face normals (paper, equation (16)).
 #include <vdbtet/Quality.h>
 
 #include "emit/Angles.h"

@@ -1,3 +1,5 @@
+/// @file TetWalk.cc
+/// What a tile's tets look like to their neighbours.
 #include "emit/TetWalk.h"
 
 namespace vdbtet {

@@ -1,3 +1,5 @@
+/// @file Flips.cc
+/// Algorithms 4 and 5 (paper, sections 4.4 and 6.2), an octahedron at a time.
 #include "flips/Flips.h"
 
 #include <vdbtet/Quality.h>

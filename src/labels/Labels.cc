@@ -1,3 +1,5 @@
+/// @file Labels.cc
+/// Parallel rounds, the worklist and the tie rule (instead of the paper's Algorithms 2 and 3).
 #include "labels/Labels.h"
 
 #include <deque>

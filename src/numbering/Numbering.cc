@@ -1,3 +1,5 @@
+/// @file Numbering.cc
+/// Used vertices by dilation of masks, ids by count and scan.
 #include "numbering/Numbering.h"
 
 namespace vdbtet {

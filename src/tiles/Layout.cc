@@ -1,3 +1,5 @@
+/// @file Layout.cc
+/// Runs of tiles, and neighbours by binary search.
 #include "tiles/Layout.h"
 
 #include <vdbtet/Errors.h>
