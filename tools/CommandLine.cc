@@ -82,6 +82,12 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
                    "Version of the method, 1 or 2. Default: 2, with the better angles")
         ->check(CLI::IsMember({1, 2}).description(""))
         ->type_name("1|2");
+    app.add_option(
+           "--max-tiles", options.maxSurfaceTiles,
+           fmt::format("Refuse a surface that crosses more lattice tiles, of 8 x 8 x 8 cells, than this. "
+                       "Default: {}",
+                       options.maxSurfaceTiles))
+        ->type_name("N");
     app.add_option("-j,--threads", line.threads, "Threads to use. Default: 0, all")
         ->check(CLI::Range(0, 4096).description(""))
         ->type_name("N");

@@ -148,7 +148,9 @@ class VdbTet(unittest.TestCase):
         self.assertEqual(self.tets("sphere.vdb", "-s", "0.2"), self.tets("sphere.vdb", "-v", "2"))
         self.assertLess(self.tets("sphere.vdb", "-v", "2"), plain)
         self.assertLess(self.tets("sphere.vdb", "-i", "-0.1"), plain)
-        self.assert_fails(1, ".", "sphere.vdb", "o.vtu", "--inside", "above")
+        self.assert_fails(1, "background", "sphere.vdb", "o.vtu", "--inside", "above")
+        self.assert_fails(1, "more than 2 lattice tiles", "sphere.vdb", "o.vtu", "--max-tiles", "2")
+        self.assert_fails(2, "limit", "sphere.vdb", "o.vtu", "--max-tiles", "0")
         self.assertEqual(self.created(), ["tets.json"])
 
     def test_dry_run(self):

@@ -1,10 +1,14 @@
 // What a sink may rely on: exact totals, then chunks in order, and its own exceptions.
 #include "support/Catch.h"
 #include "support/Fixtures.h"
+#include "support/MemoryLimit.h"
+#include "support/MeshChecker.h"
 #include "support/MeshMatch.h"
 #include "support/Meshing.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <stdexcept>
 
 using namespace vdbtet;
@@ -68,6 +72,23 @@ struct ThrowingSink final : MeshSink {
     int chunks = 0;
     bool ended = false;
 };
+
+/// The most that rounding the coordinates to float32 turns any dihedral angle, degrees.
+double greatestTurn(const TetMesh& mesh) {
+    const auto rounded = [](const openvdb::Vec3d& p) { return openvdb::Vec3d(openvdb::Vec3f(p)); };
+    double greatest = 0;
+    for (const Tet& t : mesh.tets) {
+        std::array<openvdb::Vec3d, 4> p, q;
+        for (int i = 0; i < 4; ++i) {
+            p[i] = mesh.points[std::size_t(t[i])];
+            q[i] = rounded(p[i]);
+        }
+        const auto before = angleOfEdges(p[0], p[1], p[2], p[3]),
+                   after = angleOfEdges(q[0], q[1], q[2], q[3]);
+        for (int i = 0; i < 6; ++i) greatest = std::max(greatest, std::abs(after[i] - before[i]));
+    }
+    return greatest;
+}
 
 openvdb::FloatGrid::Ptr manyTiles() { return levelSet(sphere({0.3, -0.2, 0.1}, 41.3)); }
 
@@ -134,13 +155,36 @@ TEST_CASE("a mesh in memory can be filled again") {
     requireIdentical(mesh, meshOf(*levelSet(sphere({0.3, -0.2, 0.1}, 5.1))).mesh);
 }
 
-TEST_CASE("single precision suffices near the origin and not far from it") {
-    StrictSink near, far;
-    const auto nearGrid = levelSet(sphere({0.3, -0.2, 0.1}, 5.1));
-    const auto farGrid = nearGrid->deepCopy();
-    farGrid->setTransform(uniformTransform(1.0, openvdb::Vec3d(1e6)));
-    volumeToTets(*nearGrid, near);
-    volumeToTets(*farGrid, far);
-    CHECK(near.totals.float32Suffices);
-    CHECK_FALSE(far.totals.float32Suffices);
+TEST_CASE("a mesh larger than the memory streams through") {
+    // 50 million tets of 32 bytes; the address space limit counts what threads reserve, too.
+    const auto grid = constantTiles(128, {{0, 0, 0}, {128, 0, 0}}, false);
+    const MemoryLimit limit(std::uint64_t(800) << 20);
+    StrictSink sink;
+    volumeToTets(*grid, sink);
+    CHECK(sink.tets > 50000000);
+    CHECK(sink.tets == sink.totals.tets);
+    CHECK(sink.points == sink.totals.points);
+    CHECK(sink.outOfRange == 0);
+}
+
+TEST_CASE(
+    "where single precision is said to suffice it turns no angle by more than a hundredth of a degree") {
+    bool suffices = true;
+    for (const double distance : {0.0, 1e2, 1e3, 1e4, 1e5, 1e6, 1e9}) {
+        const auto grid = levelSet(noiseBall(1, {0.3, -0.2, 0.1}, 8.2, 3));
+        grid->setTransform(uniformTransform(1.0, openvdb::Vec3d(distance)));
+        StrictSink sink;
+        const Meshed result = meshOf(*grid);
+        volumeToTets(*grid, sink);
+        CAPTURE(distance);
+        if (sink.totals.float32Suffices) {
+            CHECK(suffices); // farther out it never does again
+            CHECK(greatestTurn(result.mesh) <= 0.01);
+        } else {
+            // Nor is it given up where it would do by far.
+            CHECK(greatestTurn(result.mesh) > 0.0001);
+        }
+        suffices = sink.totals.float32Suffices;
+    }
+    CHECK_FALSE(suffices);
 }

@@ -50,10 +50,11 @@ public:
     double cutDistance(Vertex v, int direction) const { return mCut[v][direction]; }
     bool isCut(Vertex v, int direction) const { return mCut[v][direction] <= 1; }
 
-    /// Cut edges on which phi changes its sign more than once, so that the cut point is a matter of choice.
+    /// Cut edges on whose nearer half phi changes its sign more than once, so that the cut point is a matter
+    /// of choice. One in the half whose ends differ in sign is always chosen.
     std::int64_t manyRoots = 0;
-    /// Cut edges whose cut point is within 1e-9 of the middle, so that the nearer end is.
-    std::int64_t halfTies = 0;
+    /// Cut edges cut in the middle, so that the nearer end is a matter of choice, and those that might be.
+    std::int64_t halfTies = 0, nearHalfTies = 0;
 
 private:
     void cutEdge(Vertex a, int direction, const Phi& phi);

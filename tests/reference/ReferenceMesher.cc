@@ -255,6 +255,7 @@ ReferenceMesh Mesher::run() {
         for (int d = 0; d < kDirections; ++d) mResult.cutEdges += mLattice.isCut(v, d);
     mResult.manyRoots = mLattice.manyRoots;
     mResult.halfTies = mLattice.halfTies;
+    mResult.nearHalfTies = mLattice.nearHalfTies;
     mResult.undecided = mLabels.undecided;
     mResult.destinationTies = mLabels.destinationTies;
     mResult.staleDestinations = mLabels.staleDestinations;

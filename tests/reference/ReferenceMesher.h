@@ -23,11 +23,12 @@ struct ReferenceMesh {
     std::int64_t lastResortFlips = 0;
     std::int64_t cutEdges = 0;
 
-    /// Where the method leaves a choice open; all zero where there is one right mesh.
+    /// Where no rule says which of several meshes is right.
     std::int64_t manyRoots = 0;
+    std::int64_t nearHalfTies = 0;
+    /// Where the method leaves a choice open, and this project's rules decide.
     std::int64_t halfTies = 0;
     std::int64_t undecided = 0;
-    /// Where the choice is made by the rule that this project adds to the paper.
     std::int64_t destinationTies = 0;
     std::int64_t sliceTies = 0;
 

@@ -138,7 +138,7 @@ std::vector<Expectation> expectations() {
     // Likewise for a height field that ends at its bounding box.
     expect(file("j06_open_sheet_at_bbox").components(1).euler(2));
 
-    expect(file("k01_gyroid_box_96").components(1));
+    expect(file("k01_gyroid_box_96").voxels(1.7).components(1));
     expect(file("k03_noise_rough_64"));
     expect(file("k05_torus_knot").components(1).euler(0));
     expect(file("k06_rotated_cube").components(1).euler(2));

@@ -291,6 +291,7 @@ MeshFigures requireClean(const TetMesh& mesh, const Report& report) {
     CHECK(report.angleMin >= bound.lo);
     CHECK(report.angleMax <= bound.hi);
     const MeshFigures f = requireClean(mesh, AngleBound{report.angleMin, report.angleMax});
+    CHECK_FALSE(report.stages.empty());
     CHECK(report.points == f.points);
     CHECK(report.tets == f.tets);
     CHECK(report.boundaryTriangles == f.triangles);
