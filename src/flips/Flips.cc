@@ -14,7 +14,7 @@ using openvdb::Vec3d;
 namespace {
 
 constexpr double kMinAngle = 11.47;  // degrees; the policy of Algorithm 4
-constexpr double kTieAngle = 1e-6;   // degrees; a difference below this is rounding
+constexpr double kTieAngle = 1e-5;   // degrees; more than distances in float can turn an angle
 constexpr double kExtremeMove = 0.3; // of a short edge; Algorithm 5
 
 /// How good the tets of a slice are that will be in the mesh.

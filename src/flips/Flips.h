@@ -59,7 +59,7 @@ struct ExtraFlip {
 };
 
 /// @brief Algorithm 4: the slice of an octahedron whose spine joins an inside and an outside vertex.
-/// @details Decides by the two tets at the inside end alone. Ties within 1e-6 degrees go to the other
+/// @details Decides by the two tets at the inside end alone. Ties within 1e-5 degrees go to the other
 /// criterion, then to slice A.
 bcc::Slice chooseActiveSlice(const LocalVertices& vertices, const LocalOctahedron& octahedron);
 

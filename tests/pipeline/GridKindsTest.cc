@@ -141,6 +141,21 @@ TEST_CASE("a surface between a tile and its neighbour is found") {
     CHECK(f.volume == Approx(128.0 * 128 * 128).epsilon(0.02));
 }
 
+TEST_CASE("a surface almost a voxel away from the only leaf is found") {
+    // Three voxels a side in the corner of a leaf, of -3 in a background of 0.1.
+    const auto grid = openvdb::FloatGrid::create(0.1f);
+    grid->tree().touchLeaf(openvdb::Coord(0));
+    grid->fill(openvdb::CoordBBox::createCube(openvdb::Coord(0), 3), -3.0f);
+    const Meshed result = meshOf(*grid, atVoxels(0.1));
+    const MeshFigures f = requireClean(result.mesh, result.report);
+    requireManifold(f);
+    CHECK(f.components == 1);
+    CHECK(f.euler == 2);
+    const double reach = 3 / 3.1;
+    CHECK(result.report.bounds.min().eq(openvdb::Vec3d(-reach), 0.02));
+    CHECK(result.report.bounds.max().eq(openvdb::Vec3d(2 + reach), 0.02));
+}
+
 TEST_CASE("two shapes far apart are two meshes") {
     // Memory for the box between them would be some 1e15 bytes.
     const Meshed result = meshOf(*levelSet(twoBalls({0.3, -0.2, 0.1}, 6.2, 1e5)));

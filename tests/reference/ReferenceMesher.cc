@@ -15,7 +15,7 @@ namespace {
 
 using Corners = std::array<Vertex, 4>;
 
-constexpr double kAngleTie = 1e-6;
+constexpr double kAngleTie = 1e-5;
 constexpr double kGoodAngle = 11.47;
 constexpr double kFarMove = 0.3;
 
