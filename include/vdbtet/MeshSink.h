@@ -37,7 +37,8 @@ struct MeshChunk {
 /// @brief Receives a mesh: begin() once, chunk() in order, end() once when the mesh is whole.
 /// @details All calls come one at a time, though not all from the same thread. A run that is cancelled or
 /// that fails never calls end(); a sink that owns a file then leaves nothing behind when it is destroyed.
-/// Exceptions thrown by a sink end the run and reach the caller unchanged.
+/// Exceptions thrown by a sink end the run and reach the caller; an Error
+/// other than FileError then has the grid's name in front.
 class MeshSink {
 public:
     virtual ~MeshSink() = default;

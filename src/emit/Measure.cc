@@ -29,7 +29,6 @@ struct Doubled {
     int x() const { return c[0] >> 1; }
     int y() const { return c[1] >> 1; }
     int z() const { return c[2] >> 1; }
-    bool operator==(const Doubled& o) const { return c[0] == o.c[0] && c[1] == o.c[1] && c[2] == o.c[2]; }
 };
 
 bool interior(const TetWalk& walk, const Doubled& v) {
