@@ -20,7 +20,7 @@ std::string quoted(const openvdb::GridBase& grid) {
     return grid.getName().empty() ? std::string("the unnamed grid") : "grid '" + grid.getName() + "'";
 }
 
-/// Tiles are numbered in 32 bits; that many would take 3 TB.
+/// Tiles are numbered in 32 bits; that many would take 1 TB.
 constexpr std::int64_t kMostSurfaceTiles = std::int64_t(1) << 30;
 
 void checkOptions(const Options& options) {
