@@ -87,25 +87,24 @@ void runPipeline(const Field& field, const Frame& frame, const Options& options,
 
     auto tiles = stage("tiles", [&] { return field.surfaceTiles(options.maxSurfaceTiles, interrupt); });
     if (report.cancelled) return;
-    const auto signs = stage("signs", [&] { return findSigns(field, tiles, interrupt); });
+    std::optional<Cuts> cuts =
+        stage("cuts", [&] { return std::make_optional(findCuts(field, tiles, interrupt)); });
     if (report.cancelled) return;
-    const Layout layout = stage("layout", [&] { return makeLayout(std::move(tiles), signs); });
+    const std::vector<TileSigns> signs = std::move(cuts->signs);
+    const Layout layout = stage("layout", [&] { return makeLayout(std::move(tiles), signs, interrupt); });
     if (report.cancelled) return;
     report.surfaceTiles = layout.surfaceCount();
-    std::optional<Arrows> arrows =
-        stage("cuts", [&] { return std::make_optional<Arrows>(field, layout, signs, interrupt); });
-    if (report.cancelled) return;
-    report.cutEdges = arrows->cutEdges();
+    report.cutEdges = cuts->arrows.cutEdges;
     if (report.cutEdges == 0)
         throw NoSurface("the shape slips between the lattice points; use a finer spacing");
-    const Labels labels = stage("labels", [&] { return labelVertices(layout, *arrows, interrupt); });
+    const Labels labels = stage("labels", [&] { return labelVertices(layout, cuts->arrows, interrupt); });
     if (report.cancelled) return;
     report.backLabelled = labels.backLabelled;
     report.tieBroken = labels.tieBroken;
     const Destinations destinations =
-        stage("destinations", [&] { return findDestinations(field, layout, *arrows, labels, interrupt); });
+        stage("destinations", [&] { return findDestinations(field, layout, cuts->arrows, labels, interrupt); });
     if (report.cancelled) return;
-    arrows.reset(); // the largest product, and no one reads it again
+    cuts.reset(); // the largest product, and no one reads it again
 
     const Vertices vertices{layout, signs, labels, destinations};
     const Flips flips = stage("flips", [&] { return chooseFlips(vertices, options.tiger, interrupt); });

@@ -5,8 +5,8 @@
 #include <openvdb/Types.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace vdbtet {
 
@@ -23,21 +23,46 @@ struct MeshTotals {
     bool float32Suffices = false;
 };
 
+/// A view of consecutive values that someone else owns.
+template <typename T>
+class ArrayView {
+public:
+    ArrayView() = default;
+    ArrayView(const T* data, std::size_t size) : mData(data), mSize(size) {}
+
+    const T* data() const { return mData; }
+    std::size_t size() const { return mSize; }
+    bool empty() const { return mSize == 0; }
+    const T* begin() const { return mData; }
+    const T* end() const { return mData + mSize; }
+    const T& operator[](std::size_t i) const { return mData[i]; }
+
+private:
+    const T* mData = nullptr;
+    std::size_t mSize = 0;
+};
+
 /// A consecutive run of the mesh. Points and tets are numbered from 0 in the order of the chunks; a tet may
-/// name points of chunks that come later.
+/// name points of any other chunk.
 struct MeshChunk {
     std::int64_t firstPoint = 0;
     std::int64_t firstTet = 0;
-    /// World-space positions of the points firstPoint, firstPoint + 1, ...
-    std::vector<openvdb::Vec3d> points;
-    /// Point ids of the tets firstTet, firstTet + 1, ...
-    std::vector<Tet> tets;
+    /// World-space positions of the points firstPoint, firstPoint + 1, ...; valid during the call.
+    ArrayView<openvdb::Vec3d> points;
+    /// Point ids of the tets firstTet, firstTet + 1, ...; valid during the call.
+    ArrayView<Tet> tets;
 };
 
-/// @brief Receives a mesh: begin() once, chunk() in order, end() once when the mesh is whole.
-/// @details All calls come one at a time, though not all from the same thread. A run that is cancelled or
-/// that fails never calls end(); a sink that owns a file then leaves nothing behind when it is destroyed.
-/// Exceptions thrown by a sink end the run and reach the caller; an Error
+/// Room for the points and tets of a chunk.
+struct ChunkMemory {
+    openvdb::Vec3d* points = nullptr;
+    Tet* tets = nullptr;
+};
+
+/// @brief Receives a mesh: begin() once, chunk() for each part, end() once when the mesh is whole.
+/// @details A sink gets its chunks one at a time and in order, though not all from the same thread, unless it is
+/// concurrent(). A run that is cancelled or that fails never calls end(); a sink that owns a file then leaves
+/// nothing behind when it is destroyed. Exceptions thrown by a sink end the run and reach the caller; an Error
 /// other than FileError then has the grid's name in front.
 class MeshSink {
 public:
@@ -46,6 +71,19 @@ public:
     virtual bool begin(const MeshTotals& totals) = 0;
     virtual void chunk(const MeshChunk& chunk) = 0;
     virtual void end() = 0;
+
+    /// @return true where several threads may call chunk() at once, and in any order. Much the faster way: each
+    /// chunk knows its place in the mesh.
+    virtual bool concurrent() const { return false; }
+
+    /// @brief For a sink that has memory for the whole mesh: where the chunk shall be made that starts with these.
+    /// @return null pointers, the default, for memory of the mesher's own
+    /// @details Called before chunk(), by several threads at once whether the sink is concurrent() or not.
+    virtual ChunkMemory memory(std::int64_t firstPoint, std::int64_t firstTet) {
+        static_cast<void>(firstPoint);
+        static_cast<void>(firstTet);
+        return {};
+    }
 };
 
 } // namespace vdbtet

@@ -22,6 +22,7 @@ public:
     bool begin(const MeshTotals& totals) override;
     void chunk(const MeshChunk& chunk) override;
     void end() override;
+    bool concurrent() const override { return true; }
 
     /// @return the exact size in bytes of the file that a mesh of @a totals makes.
     static std::uint64_t fileSize(const MeshTotals& totals);

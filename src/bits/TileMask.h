@@ -1,5 +1,5 @@
 /// @file TileMask.h
-/// One bit for each of the 8 x 8 x 8 vertices of a tile, and such masks of neighbouring tiles.
+/// One bit for each of the 8 x 8 x 8 vertices of a tile, and the masks of neighbouring tiles.
 ///
 /// A bit's number is x<<6 | y<<3 | z, as in a VDB leaf: a word is an x-slab, a byte a z-row.
 #pragma once
@@ -89,41 +89,9 @@ constexpr int neighbourSlot(int dx, int dy, int dz) { return (dx + 1) * 9 + (dy 
 /// The tile step (-1, 0 or 1) to the tile that holds local coordinate @a x in -8..15.
 constexpr int tileStep(int x) { return x < 0 ? -1 : x > 7 ? 1 : 0; }
 
-/// The masks of a tile and of its 26 neighbours, seen as one mask with coordinates -8 to 15.
+/// The masks of a tile and of its 26 neighbours.
 struct MasksAround {
     std::array<const TileMask*, 27> masks; ///< by neighbourSlot()
-
-    /// @return the mask whose bit (x,y,z) is bit (x+dx, y+dy, z+dz) of the whole; each step in -1..1.
-    TileMask shifted(int dx, int dy, int dz) const {
-        TileMask result;
-        for (int x = 0; x < TileMask::kDim; ++x) {
-            const std::uint64_t rows = shiftedRows(x + dx, 0, dz);
-            result.words[x] = dy == 0  ? rows
-                              : dy > 0 ? rows >> 8 | shiftedRows(x + dx, 1, dz) << 56
-                                       : rows << 8 | shiftedRows(x + dx, -1, dz) >> 56;
-        }
-        return result;
-    }
-
-    /// @return the bits -1 to 8 of the z-row at (@a x, @a y), each in -1..8; the lowest bit is z = -1.
-    unsigned row(int x, int y) const {
-        const int slot = neighbourSlot(tileStep(x), tileStep(y), 0);
-        const auto bits = [&](int dz) {
-            return unsigned(masks[slot + dz]->words[x & 7] >> ((y & 7) * 8) & 0xff);
-        };
-        return bits(-1) >> 7 | bits(0) << 1 | (bits(1) & 1) << 9;
-    }
-
-private:
-    /// The slab @a x of the tiles at @a tileY, moved by @a dz along its rows.
-    std::uint64_t shiftedRows(int x, int tileY, int dz) const {
-        constexpr std::uint64_t kLow = 0x0101010101010101, kHigh = 0x8080808080808080;
-        const int slot = neighbourSlot(tileStep(x), tileY, 0);
-        const auto slab = [&](int tileZ) { return masks[slot + tileZ]->words[x & 7]; };
-        return dz == 0  ? slab(0)
-               : dz > 0 ? (slab(0) & ~kLow) >> 1 | (slab(1) & kLow) << 7
-                        : (slab(0) & ~kHigh) << 1 | (slab(-1) & kHigh) >> 7;
-    }
 };
 
 } // namespace vdbtet

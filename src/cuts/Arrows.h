@@ -9,13 +9,10 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace vdbtet {
-
-/// @return the signs of @a tiles. They are decided here, once; all later stages read these bits.
-std::vector<TileSigns> findSigns(const Field& field, const std::vector<openvdb::Coord>& tiles,
-                                 Interrupt& interrupt);
 
 /// A vertex of a surface tile.
 struct VertexRef {
@@ -28,26 +25,26 @@ struct VertexRef {
 /// surface tile.
 VertexRef farEnd(const Neighbours& neighbours, const VertexRef& v, int direction);
 
+/// The vertices of a tile that an arrow leaves, by lattice and direction.
+using TileArrows = std::array<EdgeMasks, 2>;
+
 /// @brief The arrows of all cut short edges; on a tie an arrow leaves the L_A end.
 /// @details Labelling needs to know of a cut point only in which half of its edge it lies. Where exactly
 /// matters to the one manifold vertex that may move there, so it is left to that vertex (see Destinations).
-class Arrows {
-public:
-    Arrows(const Field& field, const Layout& layout, const std::vector<TileSigns>& signs,
-           Interrupt& interrupt);
-
-    /// @return for each direction the vertices of @a lattice in a surface tile that an arrow leaves that way.
-    EdgeMasks leaving(TileRef tile, const Neighbours& neighbours, bcc::Lattice lattice) const;
-
-    std::int64_t cutEdges() const { return mCutEdges; }
-
-private:
-    const std::vector<TileSigns>& mSigns;
-    /// For each vertex with a cut edge the set of directions in which an arrow leaves it; by tile, lattice
-    /// and bit.
-    std::vector<std::uint8_t> mLeaving;
-    std::vector<std::array<std::int64_t, 2>> mFirst; ///< of each surface tile and lattice, in mLeaving
-    std::int64_t mCutEdges = 0;
+struct Arrows {
+    std::vector<std::unique_ptr<const TileArrows>> of; ///< each surface tile; null where no edge is cut
+    std::vector<TileRef> tiles;                        ///< those that are not null, ascending
+    std::int64_t cutEdges = 0;
 };
+
+/// What the field has to say before labels are known.
+struct Cuts {
+    std::vector<TileSigns> signs; ///< of each surface tile; decided here, once: all later stages read them
+    Arrows arrows;
+};
+
+/// @brief Find the signs and the arrows of @a tiles.
+/// @details A tile's edges that end in its neighbours are decided by both: the same values, so the same bits.
+Cuts findCuts(const Field& field, const std::vector<openvdb::Coord>& tiles, Interrupt& interrupt);
 
 } // namespace vdbtet

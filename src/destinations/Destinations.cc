@@ -2,6 +2,8 @@
 /// The nearest cut point of each manifold vertex (paper, equation (6)).
 #include "destinations/Destinations.h"
 
+#include "bits/PaddedMask.h"
+
 namespace vdbtet {
 
 namespace {
@@ -68,17 +70,18 @@ Destinations findDestinations(const Field& field, const Layout& layout, const Ar
     destinations.distances.resize(sum);
     destinations.directions.resize(sum);
 
-    parallelRanges(tiles, interrupt, [&](std::int64_t begin, std::int64_t end) {
+    const auto& cutTiles = arrows.tiles; // no other holds a manifold vertex
+    parallelRanges(std::int64_t(cutTiles.size()), interrupt, [&](std::int64_t begin, std::int64_t end) {
         const auto sampler = field.sampler();
         Nearest nearest;
-        for (std::int64_t t = begin; t < end; ++t) {
-            const Neighbours neighbours = layout.neighbours(TileRef(t));
-            const Surroundings around(neighbours);
+        for (std::int64_t i = begin; i < end; ++i) {
+            const TileRef t = cutTiles[i];
+            const Surroundings around(layout.neighbours[t]);
             for (bcc::Lattice lattice : {bcc::A, bcc::B}) {
                 const TileMask& manifold = labels.manifold[t][lattice];
                 if (!manifold.any()) continue;
-                const MasksAround far = around.masks(labels.manifold, bcc::other(lattice));
-                EdgeMasks edges = arrows.leaving(TileRef(t), neighbours, lattice);
+                const PaddedMask far(around.masks(labels.manifold, bcc::other(lattice)));
+                EdgeMasks edges = (*arrows.of[t])[lattice];
                 for (int d = 0; d < bcc::kDirections; ++d) {
                     const bcc::Step step = bcc::shortEdge(lattice, d);
                     edges[d] &= manifold & ~far.shifted(step.x, step.y, step.z);

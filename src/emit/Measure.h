@@ -3,7 +3,7 @@
 #pragma once
 
 #include "bcc/Frame.h"
-#include "emit/TetWalk.h"
+#include "flips/Flips.h"
 #include "numbering/Numbering.h"
 
 #include <vdbtet/Quality.h>

@@ -7,6 +7,7 @@
 
 #include "Parallel.h"
 #include "bcc/Lattice.h"
+#include "bits/PaddedMask.h"
 #include "bits/TileMask.h"
 
 #include <openvdb/Types.h>
@@ -42,13 +43,18 @@ public:
     public:
         virtual ~Sampler() = default;
 
-        virtual TileSigns signs(const openvdb::Coord& tile) = 0;
+        /// @brief Decide which vertices in and around @a tile are inside.
+        /// @param a  receives them for the L_A vertices at 0 to 8, by PaddedMask::bit()
+        /// @param b  the same for the L_B vertices at -1 to 7: the other ends of all short edges from the
+        /// tile's L_A vertices, as @a a has them of its L_B vertices
+        /// @details A vertex gets the same sign from every tile. Bits farther out are arbitrary.
+        virtual void signs(const openvdb::Coord& tile, PaddedMask& a, PaddedMask& b) = 0;
 
         /// @brief Decide which end of a cut short edge is the nearer one to its cut point.
-        /// @param cut  the L_A vertices of @a tile whose short edge in each direction has ends of opposite
-        /// sign
+        /// @param cut  L_A vertices at 0 to 8 whose short edge in @a direction leads to an L_B vertex at -1 to 7
+        /// of the other sign
         /// @return those of them to which the cut point is nearer than to the L_B end, or as near.
-        virtual EdgeMasks nearerToA(const openvdb::Coord& tile, const EdgeMasks& cut) = 0;
+        virtual PaddedMask nearerToA(const openvdb::Coord& tile, int direction, const PaddedMask& cut) = 0;
 
         /// @brief Find cut points from their nearer ends.
         /// @param lattice  which vertices of @a tile

@@ -6,7 +6,7 @@
 /// outside, in one of finitely many constant tiles.
 #pragma once
 
-#include "bits/TileMask.h"
+#include "bits/PaddedMask.h"
 #include "field/Level.h"
 
 #include <vdbtet/Errors.h>
@@ -69,9 +69,10 @@ public:
             masks[slot] = inside(block.offsetBy(dx, dy, dz));
             around.masks[slot] = &masks[slot];
         }
+        const PaddedMask padded(around);
         TileMask any = TileMask::filled(false), all = TileMask::filled(true);
         for (int corner = 0; corner < 8; ++corner) {
-            const TileMask shifted = around.shifted(corner >> 2, corner >> 1 & 1, corner & 1);
+            const TileMask shifted = padded.shifted(corner >> 2, corner >> 1 & 1, corner & 1);
             any |= shifted;
             all &= shifted;
         }

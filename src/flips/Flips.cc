@@ -2,6 +2,8 @@
 /// Algorithms 4 and 5 (paper, sections 4.4 and 6.2), an octahedron at a time.
 #include "flips/Flips.h"
 
+#include "quality/Dihedral.h"
+
 #include <vdbtet/Quality.h>
 
 #include <algorithm>
@@ -26,6 +28,7 @@ struct SliceQuality {
 SliceQuality sliceQuality(const LocalVertices& vertices, const LocalOctahedron& octahedron,
                           bcc::Slice slice) {
     SliceQuality quality;
+    double minCos = 1.0, maxCos = -1.0;
     for (const auto& tet : bcc::kSliceTets[slice]) {
         int manifold = 0;
         bool outside = false;
@@ -33,16 +36,21 @@ SliceQuality sliceQuality(const LocalVertices& vertices, const LocalOctahedron& 
         for (int i = 0; i < 4; ++i) {
             const int local = octahedron[tet[i]];
             p[i] = &vertices.position(local);
-            manifold += vertices.manifold(local);
-            outside = outside || vertices.state(local) == State::Outside;
+            const State state = vertices.state(local);
+            manifold += state == State::Manifold;
+            outside = outside || state == State::Outside;
         }
         if (outside || manifold == 4) continue;
         // An inverted tet can show fine angles by the unsigned formula.
         if (signedVolume6(*p[0], *p[1], *p[2], *p[3]) <= 0.0) quality.inverted = true;
-        for (double angle : dihedralAngles(*p[0], *p[1], *p[2], *p[3])) {
-            quality.min = std::min(quality.min, angle);
-            quality.max = std::max(quality.max, angle);
+        for (double cosine : dihedralCosines(*p[0], *p[1], *p[2], *p[3])) {
+            minCos = std::min(minCos, cosine);
+            maxCos = std::max(maxCos, cosine);
         }
+    }
+    if (maxCos >= minCos) {
+        quality.min = angleOf(maxCos);
+        quality.max = angleOf(minCos);
     }
     return quality;
 }
@@ -129,23 +137,29 @@ struct Candidates {
     bool any = false;
 };
 
-Candidates findCandidates(const Vertices& vertices, TileRef tile, bool withExtra) {
+Candidates findCandidates(const LocalStates& states, bool withExtra) {
     Candidates candidates;
-    const Neighbours neighbours = vertices.layout.neighbours(tile);
-    const Surroundings around(neighbours);
-    for (int lattice = 0; lattice < 2; ++lattice) {
-        const MasksAround inside = around.signs(vertices.signs, lattice);
-        const MasksAround manifold = around.masks(vertices.labels.manifold, lattice);
-        const TileMask& in1 = vertices.signs[tile][lattice];
-        const TileMask& on1 = vertices.labels.manifold[tile][lattice];
+    for (bcc::Lattice lattice : {bcc::A, bcc::B}) {
+        const PaddedMask &interior = states.interiorMask(lattice), &manifold = states.manifoldMask(lattice);
+        const TileMask in1 = interior.core(), on1 = manifold.core();
         for (int axis = 0; axis < 3; ++axis) {
-            const TileMask in2 = inside.shifted(axis == 0, axis == 1, axis == 2);
-            const TileMask on2 = manifold.shifted(axis == 0, axis == 1, axis == 2);
-            candidates.active[lattice][axis] = (in1 ^ in2) & ~on1 & ~on2;
-            candidates.any = candidates.any || candidates.active[lattice][axis].any();
+            const TileMask in2 = interior.shifted(axis == 0, axis == 1, axis == 2),
+                           on2 = manifold.shifted(axis == 0, axis == 1, axis == 2);
+            TileMask& active = candidates.active[lattice][axis];
+            active = (in1 ^ in2) & ~(on1 | on2);
+            candidates.any = candidates.any || active.any();
             if (!withExtra) continue;
-            candidates.extra[lattice][axis] = (in1 & ~on1 & on2) | (on1 & in2 & ~on2);
-            candidates.any = candidates.any || candidates.extra[lattice][axis].any();
+            TileMask& extra = candidates.extra[lattice][axis];
+            extra = (in1 & on2) | (on1 & in2);
+            if (!extra.any()) continue;
+            // Two neighbours on the ring are manifold as well.
+            const auto ring = [&](int i) {
+                const bcc::Vertex& v = bcc::kOctahedra[lattice][axis][2 + i];
+                return states.manifoldMask(v.lattice).shifted(v.x, v.y, v.z);
+            };
+            const TileMask on3 = ring(0), on4 = ring(1), on5 = ring(2), on6 = ring(3);
+            extra &= (on3 | on5) & (on4 | on6);
+            candidates.any = candidates.any || extra.any();
         }
     }
     return candidates;
@@ -190,9 +204,11 @@ Flips chooseFlips(const Vertices& vertices, int version, Interrupt& interrupt) {
     const std::int64_t tiles = vertices.layout.surfaceCount();
     std::vector<TileFlips> parts(tiles);
     parallelRanges(tiles, interrupt, [&](std::int64_t begin, std::int64_t end) {
+        LocalStates states;
         LocalVertices local;
         for (std::int64_t t = begin; t < end; ++t) {
-            const Candidates candidates = findCandidates(vertices, TileRef(t), version >= 2);
+            states.load(vertices, TileRef(t));
+            const Candidates candidates = findCandidates(states, version >= 2);
             if (!candidates.any) continue;
             local.load(vertices, TileRef(t));
             parts[t] = flipTile(candidates, local);

@@ -5,16 +5,13 @@
 namespace vdbtet {
 
 bool TetMesh::begin(const MeshTotals& totals) {
-    points.clear();
-    tets.clear();
-    points.reserve(static_cast<std::size_t>(totals.points));
-    tets.reserve(static_cast<std::size_t>(totals.tets));
+    points.resize(static_cast<std::size_t>(totals.points));
+    tets.resize(static_cast<std::size_t>(totals.tets));
     return true;
 }
 
-void TetMesh::chunk(const MeshChunk& chunk) {
-    points.insert(points.end(), chunk.points.begin(), chunk.points.end());
-    tets.insert(tets.end(), chunk.tets.begin(), chunk.tets.end());
+ChunkMemory TetMesh::memory(std::int64_t firstPoint, std::int64_t firstTet) {
+    return {points.data() + firstPoint, tets.data() + firstTet};
 }
 
 } // namespace vdbtet

@@ -7,7 +7,10 @@
 
 #include "io/OutputFile.h"
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <limits>
 
@@ -17,8 +20,8 @@ namespace {
 
 constexpr char kFooter[] = "\n  </AppendedData>\n</VTKFile>\n";
 constexpr std::uint8_t kVtkTetra = 10;
-/// Values converted at a time: large enough to make system calls rare, small enough for the cache.
-constexpr std::size_t kBatch = 1 << 15;
+/// Bytes converted at a time: enough to make system calls rare, few enough for the cache.
+constexpr std::size_t kBatchBytes = std::size_t(1) << 19;
 
 /// Where everything is in the file of a mesh.
 struct VtuLayout {
@@ -93,12 +96,15 @@ struct VtuWriter::Impl {
     /// Write the values [first, first + n) of a block of @a T, where value(i) is the i-th of them.
     template <typename T, typename ValueF>
     void put(const VtuLayout::Block& block, std::int64_t first, std::size_t n, const ValueF& value) {
-        std::vector<T> batch(std::min(n, kBatch));
+        std::vector<char>& bytes = batches.local();
+        bytes.resize(kBatchBytes);
+        T* batch = reinterpret_cast<T*>(bytes.data());
+        constexpr std::size_t kBatch = kBatchBytes / sizeof(T);
         auto offset = block.offset + static_cast<std::uint64_t>(first) * sizeof(T);
-        for (std::size_t i = 0; i < n;) {
-            const std::size_t count = std::min(kBatch, n - i);
-            for (std::size_t k = 0; k < count; ++k, ++i) batch[k] = static_cast<T>(value(i));
-            file.writeAt(offset, batch.data(), count * sizeof(T));
+        for (std::size_t done = 0; done < n; done += kBatch) {
+            const std::size_t count = std::min(kBatch, n - done);
+            for (std::size_t k = 0; k < count; ++k) batch[k] = static_cast<T>(value(done + k));
+            file.writeAt(offset, batch, count * sizeof(T));
             offset += count * sizeof(T);
         }
     }
@@ -113,8 +119,9 @@ struct VtuWriter::Impl {
     OutputFile file;
     MeshTotals totals;
     std::unique_ptr<const VtuLayout> layout;
-    std::int64_t pointsWritten = 0;
-    std::int64_t tetsWritten = 0;
+    tbb::enumerable_thread_specific<std::vector<char>> batches;
+    std::atomic<std::int64_t> pointsWritten{0};
+    std::atomic<std::int64_t> tetsWritten{0};
 };
 
 VtuWriter::VtuWriter(std::string path) : mImpl(std::make_unique<Impl>(std::move(path))) {}
@@ -137,16 +144,14 @@ bool VtuWriter::begin(const MeshTotals& totals) {
 void VtuWriter::chunk(const MeshChunk& chunk) {
     Impl& impl = *mImpl;
     const VtuLayout& layout = *impl.layout;
-    const std::size_t nPoints = chunk.points.size();
-    const std::size_t nTets = chunk.tets.size();
-    impl.pointsWritten += static_cast<std::int64_t>(nPoints);
-    impl.tetsWritten += static_cast<std::int64_t>(nTets);
-    if (impl.pointsWritten > impl.totals.points || impl.tetsWritten > impl.totals.tets) {
+    const auto nPoints = chunk.points.size(), nTets = chunk.tets.size();
+    if (chunk.firstPoint + static_cast<std::int64_t>(nPoints) > impl.totals.points ||
+        chunk.firstTet + static_cast<std::int64_t>(nTets) > impl.totals.tets) {
         throw FileError("cannot write " + impl.path + ": more points or tets than announced");
     }
 
-    const double* xyz = nPoints ? chunk.points.front().asPointer() : nullptr;
-    const std::int64_t* ids = nTets ? chunk.tets.front().data() : nullptr;
+    const double* xyz = nPoints ? chunk.points[0].asPointer() : nullptr;
+    const std::int64_t* ids = nTets ? chunk.tets[0].data() : nullptr;
     const auto coordinate = [xyz](std::size_t i) { return xyz[i]; };
     if (layout.float32) {
         impl.put<float>(layout.points, 3 * chunk.firstPoint, 3 * nPoints, coordinate);
@@ -158,6 +163,8 @@ void VtuWriter::chunk(const MeshChunk& chunk) {
     impl.putInts(layout.offsets, layout.int32Offsets, chunk.firstTet, nTets,
                  [&](std::size_t i) { return 4 * (chunk.firstTet + static_cast<std::int64_t>(i) + 1); });
     impl.put<std::uint8_t>(layout.types, chunk.firstTet, nTets, [](std::size_t) { return kVtkTetra; });
+    impl.pointsWritten += static_cast<std::int64_t>(nPoints);
+    impl.tetsWritten += static_cast<std::int64_t>(nTets);
 }
 
 void VtuWriter::end() {

@@ -2,6 +2,8 @@
 /// Parallel rounds, the worklist and the tie rule (instead of the paper's Algorithms 2 and 3).
 #include "labels/Labels.h"
 
+#include "bits/PaddedMask.h"
+
 #include <deque>
 
 namespace vdbtet {
@@ -18,10 +20,8 @@ public:
         // A vertex without arrows is trivially in K. Then so is every vertex that is neither manifold nor
         // undecided.
         forTiles([&](TileRef t) {
-            const Neighbours neighbours = mLayout.neighbours(t);
             for (bcc::Lattice lattice : {bcc::A, bcc::B}) {
-                for (const TileMask& mask : mArrows.leaving(t, neighbours, lattice))
-                    mUndecided[t][lattice] |= mask;
+                for (const TileMask& mask : (*mArrows.of[t])[lattice]) mUndecided[t][lattice] |= mask;
             }
         });
     }
@@ -44,11 +44,12 @@ public:
     }
 
 private:
+    /// Call @a body for all tiles with cut edges.
     template <typename Body>
     void forTiles(Body&& body) {
-        parallelRanges(std::int64_t(mUndecided.size()), mInterrupt,
+        parallelRanges(std::int64_t(mArrows.tiles.size()), mInterrupt,
                        [&](std::int64_t begin, std::int64_t end) {
-                           for (std::int64_t t = begin; t < end; ++t) body(TileRef(t));
+                           for (std::int64_t i = begin; i < end; ++i) body(mArrows.tiles[i]);
                        });
     }
 
@@ -56,11 +57,10 @@ private:
     void settleTile(TileRef t, bcc::Lattice lattice) {
         TileMask& undecided = mUndecided[t][lattice];
         if (!undecided.any()) return;
-        const Neighbours neighbours = mLayout.neighbours(t);
-        const EdgeMasks leaving = mArrows.leaving(t, neighbours, lattice);
-        const Surroundings around(neighbours);
-        const MasksAround farManifold = around.masks(mManifold, bcc::other(lattice));
-        const MasksAround farUndecided = around.masks(mUndecided, bcc::other(lattice));
+        const EdgeMasks& leaving = (*mArrows.of[t])[lattice];
+        const Surroundings around(mLayout.neighbours[t]);
+        const PaddedMask farManifold(around.masks(mManifold, bcc::other(lattice)));
+        const PaddedMask farUndecided(around.masks(mUndecided, bcc::other(lattice)));
         TileMask intoK, notIntoManifold;
         for (int d = 0; d < bcc::kDirections; ++d) {
             if (!leaving[d].any()) continue;
@@ -73,14 +73,9 @@ private:
         undecided &= ~intoK & notIntoManifold;
     }
 
-    /// @return the arrows that leave the vertices of one lattice of a tile; unpacked once for the many
-    /// vertices of a tile in a row.
-    const EdgeMasks& leaving(TileRef tile, bcc::Lattice lattice) {
-        Unpacked& cache = mUnpacked[lattice];
-        if (cache.tile != tile) cache = {tile, mArrows.leaving(tile, mLayout.neighbours(tile), lattice)};
-        return cache.arrows;
+    bool leaves(const VertexRef& v, int direction) const {
+        return (*mArrows.of[v.tile])[v.lattice][direction].test(v.vertex);
     }
-
     bool undecided(const VertexRef& v) const { return mUndecided[v.tile][v.lattice].test(v.vertex); }
     bool manifold(const VertexRef& v) const { return mManifold[v.tile][v.lattice].test(v.vertex); }
 
@@ -89,7 +84,7 @@ private:
     bool settle(const VertexRef& v, const Neighbours& neighbours) {
         bool allManifold = true;
         for (int d = 0; d < bcc::kDirections; ++d) {
-            if (!leaving(v.tile, v.lattice)[d].test(v.vertex)) continue;
+            if (!leaves(v, d)) continue;
             const VertexRef end = farEnd(neighbours, v, d);
             if (manifold(end)) continue;
             allManifold = false;
@@ -106,7 +101,7 @@ private:
     /// The paper's back-labelling: what is settled may settle those whose arrows lead to it.
     void runWorklist(Labels& labels) {
         std::deque<VertexRef> work;
-        for (TileRef t = 0; t < TileRef(mUndecided.size()); ++t) {
+        for (TileRef t : mArrows.tiles) {
             for (bcc::Lattice lattice : {bcc::A, bcc::B}) {
                 mUndecided[t][lattice].forEach([&](int vertex) { work.push_back({t, lattice, vertex}); });
             }
@@ -116,13 +111,12 @@ private:
             const VertexRef v = work.front();
             work.pop_front();
             if (!undecided(v)) continue;
-            const Neighbours neighbours = mLayout.neighbours(v.tile);
+            const Neighbours& neighbours = mLayout.neighbours[v.tile];
             if (!settle(v, neighbours)) continue;
             for (int d = 0; d < bcc::kDirections; ++d) {
                 const VertexRef from = farEnd(neighbours, v, d);
                 if (from.tile < 0 || !undecided(from)) continue;
-                if (leaving(from.tile, from.lattice)[bcc::opposite(d)].test(from.vertex))
-                    work.push_back(from);
+                if (leaves(from, bcc::opposite(d))) work.push_back(from);
             }
         }
     }
@@ -141,12 +135,6 @@ private:
     Interrupt& mInterrupt;
     std::vector<LatticeMasks> mUndecided;
     std::vector<LatticeMasks> mManifold;
-
-    struct Unpacked {
-        TileRef tile = kOutside;
-        EdgeMasks arrows;
-    };
-    Unpacked mUnpacked[2]; ///< by lattice
 };
 
 } // namespace

@@ -8,7 +8,7 @@ namespace {
 
 /// @return the vertices of @a lattice in a tile that have a neighbour, by a short or a long edge, in the
 /// interior.
-TileMask nextToInterior(const MasksAround& sameLattice, const MasksAround& otherLattice,
+TileMask nextToInterior(const PaddedMask& sameLattice, const PaddedMask& otherLattice,
                         bcc::Lattice lattice) {
     TileMask mask;
     for (int axis = 0; axis < 3; ++axis) {
@@ -33,16 +33,18 @@ Numbering numberVertices(const Vertices& vertices, Interrupt& interrupt) {
     Numbering numbering;
     numbering.used.resize(tiles);
     parallelRanges(tiles, interrupt, [&](std::int64_t begin, std::int64_t end) {
+        LocalStates states;
         for (std::int64_t t = begin; t < end; ++t) {
             for (int lattice = 0; lattice < 2; ++lattice) {
                 numbering.used[t][lattice] = vertices.signs[t][lattice] & ~manifold[t][lattice];
             }
             if (!manifold[t][bcc::A].any() && !manifold[t][bcc::B].any()) continue;
-            const Interior interior(vertices, layout.neighbours(TileRef(t)));
+            states.load(vertices, TileRef(t));
             for (bcc::Lattice lattice : {bcc::A, bcc::B}) {
                 numbering.used[t][lattice] |=
                     manifold[t][lattice] &
-                    nextToInterior(interior.masks(lattice), interior.masks(bcc::other(lattice)), lattice);
+                    nextToInterior(states.interiorMask(lattice),
+                                   states.interiorMask(bcc::other(lattice)), lattice);
             }
         }
     });

@@ -57,16 +57,8 @@ std::array<std::int64_t, 27> Layout::spansAround(const Coord& tile) const {
     return around;
 }
 
-Neighbours Layout::neighbours(TileRef tile) const {
-    const auto around = spansAround(surfaceTiles[tile]);
-    Neighbours neighbours;
-    for (int slot = 0; slot < 27; ++slot) {
-        neighbours[slot] = around[slot] < 0 ? kOutside : spans[around[slot]].surface;
-    }
-    return neighbours;
-}
-
-Layout makeLayout(std::vector<Coord> surfaceTiles, const std::vector<TileSigns>& signs) {
+Layout makeLayout(std::vector<Coord> surfaceTiles, const std::vector<TileSigns>& signs,
+                  Interrupt& interrupt) {
     // Away from the surface a tile has one sign, which it shares with the nearest vertices of the next tile.
     constexpr int kBottom = TileMask::bit(0, 0, 0), kTop = TileMask::bit(0, 0, 7);
     Layout layout;
@@ -84,6 +76,14 @@ Layout makeLayout(std::vector<Coord> surfaceTiles, const std::vector<TileSigns>&
     }
     layout.columns = columnsOf(layout.spans);
     layout.surfaceTiles = std::move(surfaceTiles);
+    layout.neighbours.resize(std::size_t(count));
+    parallelRanges(count, interrupt, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t t = begin; t < end; ++t) {
+            const auto around = layout.spansAround(layout.surfaceTiles[t]);
+            for (int slot = 0; slot < 27; ++slot)
+                layout.neighbours[t][slot] = around[slot] < 0 ? kOutside : layout.spans[around[slot]].surface;
+        }
+    });
     return layout;
 }
 

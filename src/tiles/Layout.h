@@ -2,6 +2,7 @@
 /// Which tiles the mesh touches, in which order, and who is whose neighbour.
 #pragma once
 
+#include "Parallel.h"
 #include "bits/TileMask.h"
 #include "field/Field.h"
 
@@ -48,15 +49,15 @@ struct Layout {
     /// The spans that hold a tile and its neighbours, by neighbourSlot(); -1 for tiles outside.
     std::array<std::int64_t, 27> spansAround(const openvdb::Coord& tile) const;
 
-    /// @return the neighbours of a surface tile.
-    Neighbours neighbours(TileRef tile) const;
+    std::vector<Neighbours> neighbours; ///< of each surface tile
 };
 
 /// @brief Lay out the tiles.
 /// @param surfaceTiles  as Field::surfaceTiles() gives them
 /// @param signs         of each surface tile
 /// @throw UnboundedInside where a column of tiles starts or ends inside
-Layout makeLayout(std::vector<openvdb::Coord> surfaceTiles, const std::vector<TileSigns>& signs);
+Layout makeLayout(std::vector<openvdb::Coord> surfaceTiles, const std::vector<TileSigns>& signs,
+                  Interrupt& interrupt);
 
 /// Gathers the masks of a tile and its neighbours, which must outlive it.
 class Surroundings {

@@ -1,0 +1,120 @@
+/// @file PaddedMask.h
+/// The bits of a tile and of a border of one vertex around it, in rows along z.
+///
+/// Masks of neighbouring vertices are shifts of it, a slab at a time; and a bit's number is the vertex's local
+/// number, by which the stages that look around a tile index all they unpack.
+#pragma once
+
+#include "bits/TileMask.h"
+
+#include <cstring>
+
+namespace vdbtet {
+
+class PaddedMask {
+public:
+    static constexpr int kDim = TileMask::kDim + 2;
+    static constexpr int kRowBits = 16; ///< of which kDim are used: a row is a word
+    static constexpr int kSlabBits = kDim * kRowBits;
+    static constexpr int kSize = kDim * kSlabBits;
+    static constexpr int kRows = kDim * kDim;
+    static constexpr std::uint16_t kRow = (1 << kDim) - 1; ///< all bits of a row
+
+    /// @return the number of the bit at (x,y,z), each in -1..8; numbers of neighbours differ by bit(dx,dy,dz) -
+    /// bit(0,0,0) wherever they lie.
+    static constexpr int bit(int x, int y, int z) {
+        return (x + 1) * kSlabBits + (y + 1) * kRowBits + (z + 1);
+    }
+    static constexpr int step(int dx, int dy, int dz) { return dx * kSlabBits + dy * kRowBits + dz; }
+    /// @return the number here of bit @a n of a TileMask.
+    static constexpr int bit(int n) { return bit(n >> 6, n >> 3 & 7, n & 7); }
+
+    static constexpr int x(int n) { return n / kSlabBits - 1; }
+    static constexpr int y(int n) { return n / kRowBits % kDim - 1; }
+    static constexpr int z(int n) { return n % kRowBits - 1; }
+
+    PaddedMask() = default;
+    explicit PaddedMask(const MasksAround& around);
+
+    bool test(int n) const { return rows[n >> 4] >> (n & 15) & 1; }
+    void set(int n) { rows[n >> 4] |= std::uint16_t(1u << (n & 15)); }
+    void remove(const PaddedMask& other) {
+        for (int r = 0; r < kRows; ++r) rows[r] &= std::uint16_t(~other.rows[r]);
+    }
+    void add(const PaddedMask& other) {
+        for (int r = 0; r < kRows; ++r) rows[r] |= other.rows[r];
+    }
+
+    /// @return the mask whose bit (x,y,z) is bit (x+dx, y+dy, z+dz); each step in -1..1.
+    TileMask shifted(int dx, int dy, int dz) const {
+        TileMask result;
+        for (int x = 0; x < TileMask::kDim; ++x) {
+            Rows slab;
+            std::memcpy(&slab, rows + (x + 1 + dx) * kDim + 1 + dy, sizeof slab);
+            result.words[x] = word((slab >> (1 + dz)) & 0xff);
+        }
+        return result;
+    }
+    /// @return the bits of the tile itself.
+    TileMask core() const { return shifted(0, 0, 0); }
+
+    bool any() const {
+        unsigned all = 0;
+        for (const std::uint16_t row : rows) all |= row;
+        return all != 0;
+    }
+
+    /// Call @a visit(n) for each set bit, in ascending order.
+    template <typename Visit>
+    void forEach(Visit&& visit) const {
+        for (int r = 0; r < kRows; ++r) {
+            for (unsigned row = rows[r]; row != 0; row &= row - 1) visit(r * kRowBits + __builtin_ctz(row));
+        }
+    }
+
+    std::uint16_t rows[kRows] = {}; ///< x-major
+
+private:
+    // Eight rows of a slab at a time, in vectors as both GCC and Clang know them.
+    typedef std::uint16_t Rows __attribute__((vector_size(16)));
+    typedef std::uint8_t Bytes __attribute__((vector_size(8)));
+
+    // A byte of a mask's word is a row, the lowest first, whatever the machine's byte order.
+    static std::uint64_t ordered(std::uint64_t word) {
+        return __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__ ? __builtin_bswap64(word) : word;
+    }
+    static Rows widened(std::uint64_t word) {
+        word = ordered(word);
+        Bytes bytes;
+        std::memcpy(&bytes, &word, sizeof bytes);
+        return __builtin_convertvector(bytes, Rows);
+    }
+    static std::uint64_t word(Rows rows) {
+        const Bytes bytes = __builtin_convertvector(rows, Bytes);
+        std::uint64_t word;
+        std::memcpy(&word, &bytes, sizeof word);
+        return ordered(word);
+    }
+};
+
+inline PaddedMask::PaddedMask(const MasksAround& around) {
+    for (int x = -1; x <= TileMask::kDim; ++x) {
+        std::uint64_t words[3][3]; // by the y and z steps to the tile
+        for (int y = 0; y < 3; ++y) {
+            for (int z = 0; z < 3; ++z)
+                words[y][z] = around.masks[neighbourSlot(tileStep(x), y - 1, z - 1)]->words[x & 7];
+        }
+        std::uint16_t* slab = rows + (x + 1) * kDim;
+        const Rows inner =
+            (widened(words[1][1]) << 1) | (widened(words[1][0]) >> 7) | ((widened(words[1][2]) & 1) << 9);
+        std::memcpy(slab + 1, &inner, sizeof inner);
+        const auto row = [&](const std::uint64_t(&w)[3], int shift) {
+            return std::uint16_t((w[1] >> shift & 0xff) << 1 | (w[0] >> shift & 0xff) >> 7 |
+                                 (w[2] >> shift & 1) << 9);
+        };
+        slab[0] = row(words[0], 56);
+        slab[kDim - 1] = row(words[2], 0);
+    }
+}
+
+} // namespace vdbtet

@@ -1,0 +1,187 @@
+/// @file TileEmitter.cc
+/// Ids by rank, whole octahedra at a time.
+#include "emit/TileEmitter.h"
+
+#include "simd/Isa.h"
+
+namespace vdbtet {
+
+using openvdb::Coord;
+using openvdb::Vec3d;
+
+namespace {
+
+const TileMask kNone = TileMask::filled(false), kAll = TileMask::filled(true);
+
+/// Write the four tets of slice S. @a ids are those of the local vertices, from the spine's lower end on.
+template <int kAxis>
+VDBTET_KERNEL inline void writeOctahedron(const std::int64_t* ids, Tet* tets) {
+    constexpr LocalOctahedron o = localOctahedron(bcc::A, kAxis, 0);
+    const std::int64_t v[6] = {ids[o[0]], ids[o[1]], ids[o[2]], ids[o[3]], ids[o[4]], ids[o[5]]};
+    for (int k = 0; k < 4; ++k) {
+        for (int i = 0; i < 4; ++i) tets[k][i] = v[bcc::kSliceTets[bcc::S][k][i]];
+    }
+}
+
+/// The tets of all L_A spines of a tile along an axis, all of whose vertices are inside.
+template <int kAxis>
+Tet* writeAll(const std::int64_t* ids, Tet* tets) {
+    for (int x = 0; x < TileMask::kDim; ++x) {
+        for (int y = 0; y < TileMask::kDim; ++y) {
+            const std::int64_t* row = ids + localIndex(bcc::A, x, y, 0);
+            for (int z = 0; z < TileMask::kDim; ++z, tets += 4) writeOctahedron<kAxis>(row + z, tets);
+        }
+    }
+    return tets;
+}
+
+/// The tets of the L_A spines along an axis that a surface tile has in the mesh.
+template <int kAxis>
+Tet* writeSome(const TileTets& found, const std::int64_t* ids, Tet* tets) {
+    const TileMask& flipped = found.flippedSpines(kAxis);
+    TileMask some = flipped, whole = TileMask::filled(true);
+    for (int number = 0; number < 4; ++number) {
+        some |= found.latticeTets(kAxis, number);
+        whole &= found.latticeTets(kAxis, number);
+    }
+    constexpr LocalOctahedron o = localOctahedron(bcc::A, kAxis, 0);
+    some.forEach([&](int n) {
+        const std::int64_t* at = ids + localIndex(bcc::A, n);
+        if (whole.test(n)) {
+            writeOctahedron<kAxis>(at, tets);
+            tets += 4;
+        } else if (flipped.test(n)) {
+            found.forEachTetOf(kAxis, n, [&](const LocalTet& tet) {
+                *tets++ = {ids[tet.vertex(0)], ids[tet.vertex(1)], ids[tet.vertex(2)], ids[tet.vertex(3)]};
+            });
+        } else {
+            for (int number = 0; number < 4; ++number) {
+                if (!found.latticeTets(kAxis, number).test(n)) continue;
+                const auto& tet = bcc::kSliceTets[bcc::S][number];
+                *tets++ = {at[o[tet[0]]], at[o[tet[1]]], at[o[tet[2]]], at[o[tet[3]]]};
+            }
+        }
+    });
+    return tets;
+}
+
+} // namespace
+
+Output TileEmitter::emit(std::int64_t span, std::int64_t offset, Output out) {
+    const Layout::Span& s = mVertices.layout.spans[span];
+    const Coord tile = s.first.offsetBy(0, 0, int(offset));
+    findIds(tile);
+    if (s.surface >= 0) {
+        emitSurfaceTile(tile, s.surface, out);
+    } else {
+        emitInteriorTile(tile, out);
+    }
+    return out;
+}
+
+void TileEmitter::emitSurfaceTile(const Coord& tile, TileRef surface, Output& out) {
+    for (int lattice = 0; lattice < 2; ++lattice) {
+        const TileMask& used = mNumbering.used[surface][lattice];
+        const TileMask& manifold = mVertices.labels.manifold[surface][lattice];
+        std::int64_t move = mVertices.destinations.first[surface][lattice];
+        const Vec3d origin(8.0 * tile.x(), 8.0 * tile.y(), 8.0 * tile.z());
+        Vec3d* first = out.points;
+        for (int row = 0; row < 64; ++row) {
+            const unsigned bits = unsigned(used.words[row >> 3] >> (8 * (row & 7)) & 0xff);
+            emitRow(tile, lattice, row, bits, out.points);
+            out.points += countBits(bits);
+        }
+        manifold.forEach([&](int n) {
+            const Vec3d home = LocalVertices::home(localIndex(lattice, n));
+            const Vec3d to = home + mVertices.destinations.move(move++);
+            if (used.test(n)) first[used.rank(n)] = mFrame.world(origin + to);
+        });
+    }
+    mStates.load(mVertices, surface);
+    mTets.load(surface, mStates);
+    out.tets = writeSome<0>(mTets, mIds.data(), out.tets);
+    out.tets = writeSome<1>(mTets, mIds.data(), out.tets);
+    out.tets = writeSome<2>(mTets, mIds.data(), out.tets);
+    mTets.forEachTetOfB([&](const LocalTet& tet) {
+        *out.tets++ = {mIds[tet.vertex(0)], mIds[tet.vertex(1)], mIds[tet.vertex(2)], mIds[tet.vertex(3)]};
+    });
+}
+
+void TileEmitter::emitInteriorTile(const Coord& tile, Output& out) {
+    for (int lattice = 0; lattice < 2; ++lattice) {
+        for (int row = 0; row < 64; ++row, out.points += 8) emitRow(tile, lattice, row, 0xff, out.points);
+    }
+    out.tets = writeAll<0>(mIds.data(), out.tets);
+    out.tets = writeAll<1>(mIds.data(), out.tets);
+    out.tets = writeAll<2>(mIds.data(), out.tets);
+}
+
+/// The places in the lattice of the vertices @a used of a row. The sums are those of Frame::world(), in its order.
+void TileEmitter::emitRow(const Coord& tile, int lattice, int row, unsigned used, Vec3d* points) const {
+    if (used == 0) return;
+    const double shift = 0.5 * lattice, x = 8.0 * tile.x() + ((row >> 3) + shift),
+                 y = 8.0 * tile.y() + ((row & 7) + shift), z = 8.0 * tile.z();
+    double start[3], step[3];
+    for (int i = 0; i < 3; ++i) {
+        start[i] = mFrame.toWorld(i, 0) * x + mFrame.toWorld(i, 1) * y;
+        step[i] = mFrame.toWorld(i, 2);
+    }
+    double places[8][3];
+    for (int k = 0; k < 8; ++k) {
+        for (int i = 0; i < 3; ++i) places[k][i] = start[i] + step[i] * (z + (k + shift)) + mFrame.origin[i];
+    }
+    for (; used != 0; used &= used - 1) *points++ = Vec3d(places[lowestBit(used)]);
+}
+
+TileEmitter::Ids TileEmitter::idsOf(std::int64_t span, int tileZ) const {
+    Ids ids;
+    ids.used[bcc::A] = ids.used[bcc::B] = &kNone;
+    if (span < 0) return ids;
+    const Layout::Span& s = mVertices.layout.spans[span];
+    ids.first[bcc::A] = mNumbering.first[span];
+    if (s.surface < 0) {
+        ids.first[bcc::A] += kInteriorPoints * (std::int64_t(tileZ) - s.first.z());
+        ids.used[bcc::A] = ids.used[bcc::B] = &kAll;
+    } else {
+        for (int lattice = 0; lattice < 2; ++lattice) ids.used[lattice] = &mNumbering.used[s.surface][lattice];
+    }
+    ids.first[bcc::B] = ids.first[bcc::A] + ids.used[bcc::A]->count();
+    return ids;
+}
+
+void TileEmitter::findIds(const Coord& tile) {
+    const auto spans = mVertices.layout.spansAround(tile);
+    for (int dx = -1; dx <= 1; ++dx) {
+        for (int dy = -1; dy <= 1; ++dy) {
+            Ids column[3];
+            for (int dz = -1; dz <= 1; ++dz)
+                column[dz + 1] = idsOf(spans[neighbourSlot(dx, dy, dz)], tile.z() + dz);
+            const int x0 = dx < 0 ? -1 : 8 * dx, x1 = dx == 0 ? 7 : x0;
+            const int y0 = dy < 0 ? -1 : 8 * dy, y1 = dy == 0 ? 7 : y0;
+            for (int lattice = 0; lattice < 2; ++lattice) {
+                for (int x = x0; x <= x1; ++x) {
+                    for (int y = y0; y <= y1; ++y)
+                        findIds(column, lattice, x, y, mIds.data() + localIndex(lattice, x, y, 0));
+                }
+            }
+        }
+    }
+}
+
+/// The ids of a row from -1 to 8 in three tiles above each other.
+void TileEmitter::findIds(const Ids (&column)[3], int lattice, int x, int y, std::int64_t* row) const {
+    const int n = TileMask::bit(x & 7, y & 7, 0);
+    const auto first = [&](const Ids& ids) { return ids.first[lattice]; };
+    const auto used = [&](const Ids& ids) -> const TileMask& { return *ids.used[lattice]; };
+    row[-1] = first(column[0]) + used(column[0]).rank(n + 7);
+    const std::int64_t before = first(column[1]) + used(column[1]).rank(n);
+    const unsigned bits = unsigned(used(column[1]).words[n >> 6] >> (n & 63) & 0xff);
+    if (bits == 0xff) {
+        for (int z = 0; z < 8; ++z) row[z] = before + z;
+    } else {
+        for (int z = 0; z < 8; ++z) row[z] = before + countBits(bits & ((1u << z) - 1));
+    }
+    row[8] = first(column[2]) + used(column[2]).rank(n);
+}
+
+} // namespace vdbtet

@@ -1,0 +1,53 @@
+/// @file AngleSum.h
+/// Sums up the dihedral angles of very many tets, by their cosines.
+#pragma once
+
+#include "simd/Isa.h"
+
+#include <vdbtet/Quality.h>
+
+#include <array>
+#include <cstdint>
+
+namespace vdbtet {
+
+/// @brief Extremes and histogram of angles; tets are collected and judged a batch at a time.
+class AngleSum {
+public:
+    explicit AngleSum(Isa isa = bestIsa()) : mIsa(isa) {}
+
+    /// Add the six angles of a tet.
+    void add(const openvdb::Vec3d& a, const openvdb::Vec3d& b, const openvdb::Vec3d& c,
+             const openvdb::Vec3d& d) {
+        int row = 0;
+        for (const openvdb::Vec3d* p : {&a, &b, &c, &d}) {
+            for (int axis = 0; axis < 3; ++axis) mBatch[row++][mBatched] = (*p)[axis];
+        }
+        if (++mBatched == kBatch) flush();
+    }
+
+    /// Add @a count tets of the lattice itself: four angles of 60 and two of 90 degrees each.
+    void addLatticeTets(std::int64_t count) { mLatticeTets += count; }
+
+    /// Take in all that @a other has seen.
+    void add(AngleSum& other);
+
+    AngleStats stats();
+
+private:
+    static constexpr int kBatch = 64;
+    static constexpr int kBins = 18;
+
+    void flush();
+
+    Isa mIsa;
+    double mMinCos = 1.0, mMaxCos = -1.0;
+    std::int64_t mAngles = 0;
+    std::array<std::int64_t, kBins - 1> mBeyond{}; ///< angles of at least 10, 20, ... 170 degrees
+    std::int64_t mLatticeTets = 0;
+
+    int mBatched = 0;
+    double mBatch[12][kBatch]; ///< coordinates of the vertices
+};
+
+} // namespace vdbtet
