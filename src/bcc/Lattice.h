@@ -33,6 +33,11 @@ constexpr Step shortEdge(Lattice from, int direction) {
     return {component(0), component(1), component(2)};
 }
 
+/// The short edge in each direction as a vector, in units of the spacing.
+constexpr double kShortEdges[kDirections][3] = {{-0.5, -0.5, -0.5}, {-0.5, -0.5, 0.5}, {-0.5, 0.5, -0.5},
+                                                {-0.5, 0.5, 0.5},   {0.5, -0.5, -0.5}, {0.5, -0.5, 0.5},
+                                                {0.5, 0.5, -0.5},   {0.5, 0.5, 0.5}};
+
 /// A vertex by lattice and integer coordinates, relative to some base vertex.
 struct Vertex {
     Lattice lattice;

@@ -59,7 +59,7 @@ Destinations findDestinations(const Field& field, const Layout& layout, const Ar
                               const Labels& labels, Interrupt& interrupt) {
     const std::int64_t tiles = layout.surfaceCount();
     Destinations destinations;
-    destinations.first.resize(tiles);
+    destinations.first.resize(tiles + 1);
     std::int64_t sum = 0;
     for (std::int64_t t = 0; t < tiles; ++t) {
         for (int lattice = 0; lattice < 2; ++lattice) {
@@ -67,6 +67,7 @@ Destinations findDestinations(const Field& field, const Layout& layout, const Ar
             sum += labels.manifold[t][lattice].count();
         }
     }
+    destinations.first[tiles] = {sum, sum};
     destinations.distances.resize(sum);
     destinations.directions.resize(sum);
 

@@ -19,15 +19,18 @@ namespace vdbtet {
 /// @details Later stages read nothing but move(): how a move is stored is this stage's own affair.
 struct Destinations {
     std::vector<std::array<std::int64_t, 2>>
-        first; ///< the first move of a tile and lattice; they go by bit of Labels::manifold
+        first; ///< the first move of a tile and lattice, and the end; they go by bit of Labels::manifold
     std::vector<float> distances; ///< as fractions of a short edge
     std::vector<std::uint8_t> directions;
 
+    /// @return whether a surface tile has any manifold vertex.
+    bool any(TileRef tile) const { return first[tile][bcc::A] != first[tile + 1][bcc::A]; }
+
     /// @return move number @a i, in lattice units.
     openvdb::Vec3d move(std::int64_t i) const {
-        const int d = directions[i];
-        const double half = 0.5 * distances[i];
-        return openvdb::Vec3d(bcc::sign(d, 0) * half, bcc::sign(d, 1) * half, bcc::sign(d, 2) * half);
+        const double distance = distances[i];
+        const auto& edge = bcc::kShortEdges[directions[i]];
+        return openvdb::Vec3d(distance * edge[0], distance * edge[1], distance * edge[2]);
     }
 };
 

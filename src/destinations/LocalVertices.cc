@@ -40,24 +40,31 @@ LocalVertices::LocalVertices() {
     for (int local = 0; local < kLocalVertices; ++local) mPosition[local] = home(local);
 }
 
-void LocalVertices::load(const Vertices& vertices, TileRef tile) {
-    LocalStates::load(vertices, tile);
-    for (int local : mMoved) mPosition[local] = home(local);
+void LocalVertices::loadMoves(const Vertices& vertices, TileRef tile) {
+    for (const Moved& moved : mMoved) mPosition[moved.local] = home(moved.local);
     mMoved.clear();
-    for (int lattice = 0; lattice < 2; ++lattice) {
-        if (!manifoldMask(lattice).any()) continue;
-        for (int slot = 0; slot < 27; ++slot) {
-            const TileRef from = vertices.layout.neighbours[tile][slot];
-            if (from < 0) continue;
-            const int shift = localIndex(lattice, 8 * (slot / 9 - 1), 8 * (slot / 3 % 3 - 1), 8 * (slot % 3 - 1)) -
-                              PaddedMask::bit(0, 0, 0);
+    const Neighbours& neighbours = vertices.layout.neighbours[tile];
+    for (int slot = 0; slot < 27; ++slot) {
+        const TileRef from = neighbours[slot];
+        if (from < 0) continue;
+        const int shift =
+            PaddedMask::step(8 * (slot / 9 - 1), 8 * (slot / 3 % 3 - 1), 8 * (slot % 3 - 1));
+        const TileMask& border = borderOf(slot);
+        for (int lattice = 0; lattice < 2; ++lattice) {
             const TileMask& manifold = vertices.labels.manifold[from][lattice];
-            const std::int64_t first = vertices.destinations.first[from][lattice];
-            (manifold & borderOf(slot)).forEach([&](int n) {
-                const int local = PaddedMask::bit(n) + shift;
-                mPosition[local] += vertices.destinations.move(first + manifold.rank(n));
-                mMoved.push_back(local);
-            });
+            std::int64_t before = vertices.destinations.first[from][lattice];
+            for (int w = 0; w < TileMask::kDim; ++w) {
+                const std::uint64_t all = manifold.words[w];
+                for (std::uint64_t word = all & border.words[w]; word != 0; word &= word - 1) {
+                    const int bit = lowestBit(word);
+                    const int local = localIndex(lattice, w << 6 | bit) + shift;
+                    const std::int64_t move = before + countBits(all & ((std::uint64_t(1) << bit) - 1));
+                    mPosition[local] += vertices.destinations.move(move);
+                    mMove[local] = move;
+                    mMoved.push_back({local, move});
+                }
+                before += countBits(all);
+            }
         }
     }
 }

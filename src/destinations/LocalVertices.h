@@ -83,19 +83,37 @@ private:
 const TileMask& borderOf(int slot);
 
 /// The same vertices with their positions.
-class LocalVertices : public LocalStates {
+class LocalVertices {
 public:
     LocalVertices();
 
     /// Unpack the surroundings of surface tile @a tile.
-    void load(const Vertices& vertices, TileRef tile);
+    void load(const Vertices& vertices, TileRef tile) {
+        mStates.load(vertices, tile);
+        loadMoves(vertices, tile);
+    }
+    /// The same in two parts, for those who need the second of few tiles.
+    void loadStates(const Vertices& vertices, TileRef tile) { mStates.load(vertices, tile); }
+    void loadMoves(const Vertices& vertices, TileRef tile);
+
+    const LocalStates& states() const { return mStates; }
+    State state(int local) const { return mStates.state(local); }
+    bool manifold(int local) const { return mStates.manifold(local); }
 
     /// The position in lattice units, relative to L_A's lowest vertex of the tile; for manifold vertices the
     /// destination.
     const openvdb::Vec3d& position(int local) const { return mPosition[local]; }
 
-    /// The move of a manifold vertex from its place in the lattice.
-    openvdb::Vec3d move(int local) const { return mPosition[local] - home(local); }
+    /// A manifold vertex that moves.
+    struct Moved {
+        int local;
+        std::int64_t move; ///< its number in Destinations
+    };
+    /// All of them.
+    const std::vector<Moved>& moved() const { return mMoved; }
+
+    /// The number of a manifold vertex's move in Destinations.
+    std::int64_t moveOf(int local) const { return mMove[local]; }
 
     /// The place in the lattice.
     static openvdb::Vec3d home(int local) {
@@ -105,8 +123,10 @@ public:
     }
 
 private:
+    LocalStates mStates;
     std::array<openvdb::Vec3d, kLocalVertices> mPosition;
-    std::vector<int> mMoved; ///< whose positions are not their homes
+    std::array<std::int64_t, kLocalVertices> mMove; ///< of the manifold vertices
+    std::vector<Moved> mMoved;
 };
 
 } // namespace vdbtet

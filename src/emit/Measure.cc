@@ -24,11 +24,11 @@ public:
     /// @return the number of tets
     std::int64_t measure(TileRef tile) {
         mLocal.load(mVertices, tile);
-        mTets.load(tile, mLocal);
+        mTets.load(tile, mLocal.states());
         ambiguous += mTets.ambiguous();
-        if (mLocal.manifoldMask(bcc::A).any() || mLocal.manifoldMask(bcc::B).any()) {
+        if (!mLocal.moved().empty()) {
             addAngles();
-            boundaryFaces += countBoundaryFaces(mVertices, tile, mTets, mLocal);
+            boundaryFaces += countBoundaryFaces(mVertices, tile, mTets, mLocal.states());
             expandBounds(tile);
         } else {
             angles.addLatticeTets(mTets.tets());

@@ -6,6 +6,7 @@
 #include "Parallel.h"
 #include "bcc/Lattice.h"
 #include "destinations/LocalVertices.h"
+#include "simd/Isa.h"
 
 #include <array>
 #include <cstdint>
@@ -58,14 +59,16 @@ struct ExtraFlip {
     bcc::Slice slice = bcc::S;
 };
 
-/// @brief Algorithm 4: the slice of an octahedron whose spine joins an inside and an outside vertex.
-/// @details Decides by the two tets at the inside end alone. Ties within 1e-5 degrees go to the other
-/// criterion, then to slice A.
-bcc::Slice chooseActiveSlice(const LocalVertices& vertices, const LocalOctahedron& octahedron);
+/// @brief Algorithm 4: the slices of octahedra whose spines join an inside and an outside vertex.
+/// @details Decides by the two tets at the inside end alone: the whole ring is manifold, for each of its vertices
+/// has a cut edge to an end that is not. Ties within 1e-5 degrees go to the other criterion, then to slice A.
+void chooseActiveSlices(const LocalVertices& vertices, const std::vector<LocalOctahedron>& octahedra,
+                        std::vector<bcc::Slice>& slices, Isa isa = bestIsa());
 
 /// @brief Algorithm 5 with the last resort of section 6.2.2.
 /// @details The slice is the one whose new edge ends where v2 moves away from: A in case 1, B in case 2 of
 /// Figure 10.
-ExtraFlip chooseExtraSlice(const LocalVertices& vertices, const LocalOctahedron& octahedron);
+ExtraFlip chooseExtraSlice(const LocalVertices& vertices, const Destinations& destinations,
+                           const LocalOctahedron& octahedron);
 
 } // namespace vdbtet
