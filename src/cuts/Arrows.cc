@@ -38,19 +38,24 @@ TileCuts findTileCuts(Field::Sampler& sampler, const openvdb::Coord& tile) {
     sampler.signs(tile, a, b);
     cuts.signs = {a.core(), b.core()};
 
-    std::unique_ptr<TileArrows> arrows;
+    EdgeRows cut;
+    bool any = false;
     for (int d = 0; d < bcc::kDirections; ++d) {
-        PaddedMask cut = cutEdges(a, b, d);
-        if (!cut.any()) continue;
-        if (!arrows) arrows = std::make_unique<TileArrows>();
-        const PaddedMask nearer = sampler.nearerToA(tile, d, cut);
+        cut[d] = cutEdges(a, b, d);
+        any = any || cut[d].any();
+    }
+    if (!any) return cuts;
+
+    const EdgeRows nearer = sampler.nearerToA(tile, cut);
+    auto arrows = std::make_unique<TileArrows>();
+    for (int d = 0; d < bcc::kDirections; ++d) {
+        cuts.cutEdges += cut[d].core().count();
+        (*arrows)[bcc::A][d] = nearer[d].core();
+        cut[d].remove(nearer[d]);
         // From its L_B end the edge runs the opposite way.
         const int back = bcc::opposite(d);
         const bcc::Step step = bcc::shortEdge(bcc::B, back);
-        cuts.cutEdges += cut.core().count();
-        (*arrows)[bcc::A][d] = nearer.core();
-        cut.remove(nearer);
-        (*arrows)[bcc::B][back] = cut.shifted(step.x, step.y, step.z);
+        (*arrows)[bcc::B][back] = cut[d].shifted(step.x, step.y, step.z);
     }
     cuts.arrows = std::move(arrows);
     return cuts;

@@ -12,38 +12,44 @@ namespace vdbtet {
 
 namespace {
 
-constexpr int kLanes = 16;
+constexpr int kLanes = CutEdges::kLanes;
 
-/// As many edges as there are lanes.
+/// The diagonals of all lanes.
 struct Lanes {
     double b0[kLanes], b1[kLanes], b2[kLanes], b3[kLanes];
-    double start, slope; ///< the diagonal's parameter is start + slope * (fraction of the edge's near half)
+    double start[kLanes], slope[kLanes]; ///< a diagonal's parameter at the fraction x of its edge's near half
 
-    VDBTET_KERNEL inline void load(const CutEdges& edges, std::size_t first, int count) {
+    VDBTET_KERNEL inline explicit Lanes(const CutEdges& edges) {
         for (int i = 0; i < kLanes; ++i) {
-            const std::size_t edge = first + std::size_t(std::min(i, count - 1));
-            b0[i] = edges.b0[edge];
-            b1[i] = edges.b1[edge];
-            b2[i] = edges.b2[edge];
-            b3[i] = edges.b3[edge];
+            const auto& p = edges.corners;
+            const double corners[8] = {p[0][i], p[1][i], p[2][i], p[3][i], p[4][i], p[5][i], p[6][i], p[7][i]};
+            const Diagonal phi = Diagonal::of(corners);
+            b0[i] = phi.b0;
+            b1[i] = phi.b1;
+            b2[i] = phi.b2;
+            b3[i] = phi.b3;
         }
     }
+    VDBTET_KERNEL inline Diagonal diagonal(int i) const { return {b0[i], b1[i], b2[i], b3[i]}; }
     VDBTET_KERNEL inline double evaluate(int i, double x) const {
-        return Diagonal{b0[i], b1[i], b2[i], b3[i]}(start + slope * x);
+        return diagonal(i)(start[i] + slope[i] * x);
     }
 };
 
-/// @param f0  the field at the near end
-VDBTET_KERNEL inline void nearHalfRoots(const Lanes& lanes, double (&f0)[kLanes], double (&root)[kLanes]) {
-    double f1[kLanes], a[kLanes], b[kLanes], last[kLanes], stayed[kLanes], side[kLanes];
+/// @param near  the field at the near end
+/// @param count  lanes beyond it are left alone
+VDBTET_KERNEL inline void nearHalfRoots(const Lanes& lanes, const double (&near)[kLanes], int count,
+                                        double (&root)[kLanes]) {
+    double f0[kLanes], f1[kLanes], a[kLanes], b[kLanes], last[kLanes], stayed[kLanes], side[kLanes];
     std::int64_t active[kLanes]; // 0 or 1, as wide as a double
     for (int i = 0; i < kLanes; ++i) {
+        f0[i] = near[i];
         f1[i] = lanes.evaluate(i, 1.0);
         side[i] = f0[i] >= 0.0 ? 1.0 : -1.0;
         // By the rule for ties the cut point may lie just beyond the middle.
         const double side1 = f1[i] >= 0.0 ? 1.0 : -1.0;
         const bool beyond = side[i] == side1;
-        active[i] = beyond | (f0[i] == 0.0) | (f1[i] == 0.0) ? 0 : 1;
+        active[i] = beyond | (f0[i] == 0.0) | (f1[i] == 0.0) | (i >= count) ? 0 : 1;
         root[i] = beyond | (f0[i] != 0.0) ? 1.0 : 0.0;
         a[i] = 0.0;
         b[i] = 1.0;
@@ -79,19 +85,34 @@ VDBTET_KERNEL inline void nearHalfRoots(const Lanes& lanes, double (&f0)[kLanes]
 
 } // namespace
 
-void distancesToCuts(const CutEdges& edges, bool nearIsB, float* distance, Isa isa) {
+std::uint32_t cutsInFirstHalf(const CutEdges& edges, Isa isa) {
+    std::uint32_t result = 0;
     runOn(isa, [&]() VDBTET_KERNEL {
-        Lanes lanes;
-        lanes.start = nearIsB ? 1.0 : 0.0;
-        lanes.slope = nearIsB ? -0.5 : 0.5;
-        for (std::size_t first = 0; first < edges.size(); first += kLanes) {
-            const int count = int(std::min<std::size_t>(kLanes, edges.size() - first));
-            double near[kLanes], root[kLanes];
-            lanes.load(edges, first, count);
-            for (int i = 0; i < kLanes; ++i) near[i] = edges.near[first + std::size_t(std::min(i, count - 1))];
-            nearHalfRoots(lanes, near, root);
-            for (int i = 0; i < count; ++i) distance[first + std::size_t(i)] = float(0.5 * root[i]);
+        const Lanes lanes(edges);
+        std::int64_t first[kLanes];
+        for (int i = 0; i < kLanes; ++i) {
+            const Diagonal phi = lanes.diagonal(i);
+            const double near = phi.b0, middle = phi(0.5), far = phi(1.0);
+            const std::int64_t tie = std::abs(middle) <= kMiddle * std::abs(far - near) ? 1 : 0,
+                               nearInside = near >= 0.0 ? 1 : 0, middleInside = middle >= 0.0 ? 1 : 0;
+            first[i] = tie | (nearInside ^ middleInside);
         }
+        for (int i = 0; i < kLanes; ++i) result |= std::uint32_t(first[i]) << i;
+    });
+    return edges.full() ? result : result & ((std::uint32_t(1) << edges.count) - 1);
+}
+
+void distancesToCuts(const CutEdges& edges, std::uint32_t nearIsB, float* distance, Isa isa) {
+    runOn(isa, [&]() VDBTET_KERNEL {
+        Lanes lanes(edges);
+        for (int i = 0; i < kLanes; ++i) {
+            const bool fromB = nearIsB >> i & 1;
+            lanes.start[i] = fromB ? 1.0 : 0.0;
+            lanes.slope[i] = fromB ? -0.5 : 0.5;
+        }
+        double root[kLanes];
+        nearHalfRoots(lanes, edges.near, edges.count, root);
+        for (int i = 0; i < edges.count; ++i) distance[i] = float(0.5 * root[i]);
     });
 }
 

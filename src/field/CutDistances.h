@@ -1,35 +1,32 @@
 /// @file CutDistances.h
-/// Cut points of many short edges at a time.
+/// Where many short edges are cut, for edges from the corners of voxel-centred cubes to their centres.
 #pragma once
 
 #include "field/Diagonal.h"
 #include "simd/Isa.h"
 
-#include <vector>
+#include <cstdint>
 
 namespace vdbtet {
 
-/// Edges whose cut points are wanted.
+/// A batch of cut edges: the corner values of their cubes, each from the edge's L_A end as Diagonal::of() wants
+/// them.
 struct CutEdges {
-    std::vector<double> b0, b1, b2, b3; ///< of their Diagonal, from the L_A end
-    std::vector<double> near;           ///< the field at the end that the cut point is nearer to
+    static constexpr int kLanes = 32;
 
-    void clear() {
-        for (auto* values : {&b0, &b1, &b2, &b3, &near}) values->clear();
-    }
-    void add(const Diagonal& phi, double nearValue) {
-        b0.push_back(phi.b0);
-        b1.push_back(phi.b1);
-        b2.push_back(phi.b2);
-        b3.push_back(phi.b3);
-        near.push_back(nearValue);
-    }
-    std::size_t size() const { return near.size(); }
+    int count = 0;
+    double corners[8][kLanes] = {};
+    double near[kLanes] = {}; ///< the field at the end that the cut point is nearer to
+
+    bool full() const { return count == kLanes; }
 };
 
-/// @brief distanceToCut() of all @a edges.
-/// @param nearIsB   whether the near ends are those of L_B
+/// @return the edges, by bit, of which cutInFirstHalf() is true, the first end being that of L_A.
+std::uint32_t cutsInFirstHalf(const CutEdges& edges, Isa isa);
+
+/// @brief distanceToCut() of the edges.
+/// @param nearIsB   by bit, whether an edge's near end is that of L_B
 /// @param distance  receives as many numbers as there are edges
-void distancesToCuts(const CutEdges& edges, bool nearIsB, float* distance, Isa isa);
+void distancesToCuts(const CutEdges& edges, std::uint32_t nearIsB, float* distance, Isa isa);
 
 } // namespace vdbtet

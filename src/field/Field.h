@@ -25,16 +25,17 @@ using TileSigns = std::array<TileMask, 2>;
 /// For each direction the vertices of a tile that have some property along the short edge that way.
 using EdgeMasks = std::array<TileMask, bcc::kDirections>;
 
+/// The same in a tile and a border of one around it.
+using EdgeRows = std::array<PaddedMask, bcc::kDirections>;
+
 class Field {
 public:
     virtual ~Field() = default;
 
-    /// How far, in lattice units, a tile outside surfaceTiles() is from the surface at least: neither its
-    /// vertices nor their neighbours touch a cut edge, so all of them are plain inside or plain outside.
-    static constexpr double kClearance = 2.0;
-
-    /// @return the tiles that the surface comes within kClearance of, in ascending order. Tile (x,y,z) owns
-    /// the vertices [8x, 8x+8) x [8y, 8y+8) x [8z, 8z+8) of both lattices.
+    /// @return the tiles that the surface matters to, in ascending order. Tile (x,y,z) owns the vertices
+    /// [8x, 8x+8) x [8y, 8y+8) x [8z, 8z+8) of both lattices.
+    /// @details Any other tile is plain inside or plain outside: no short edge is cut that touches a vertex of an
+    /// octahedron, of either lattice, whose spine's lower end the tile owns.
     /// @throw TooLarge for more than @a maxTiles
     virtual std::vector<openvdb::Coord> surfaceTiles(std::int64_t maxTiles, Interrupt& interrupt) const = 0;
 
@@ -51,10 +52,10 @@ public:
         virtual void signs(const openvdb::Coord& tile, PaddedMask& a, PaddedMask& b) = 0;
 
         /// @brief Decide which end of a cut short edge is the nearer one to its cut point.
-        /// @param cut  L_A vertices at 0 to 8 whose short edge in @a direction leads to an L_B vertex at -1 to 7
-        /// of the other sign
+        /// @param cut  for each direction L_A vertices at 0 to 8 whose short edge that way leads to an L_B vertex
+        /// at -1 to 7 of the other sign
         /// @return those of them to which the cut point is nearer than to the L_B end, or as near.
-        virtual PaddedMask nearerToA(const openvdb::Coord& tile, int direction, const PaddedMask& cut) = 0;
+        virtual EdgeRows nearerToA(const openvdb::Coord& tile, const EdgeRows& cut) = 0;
 
         /// @brief Find cut points from their nearer ends.
         /// @param lattice  which vertices of @a tile

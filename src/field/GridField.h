@@ -45,13 +45,16 @@ public:
         }
     }
 
-    PaddedMask nearerToA(const openvdb::Coord& tile, int direction, const PaddedMask& cut) override {
-        PaddedMask nearer;
-        const openvdb::Vec3d edge = shortEdge(direction);
-        cut.forEach([&](int n) {
-            const openvdb::Vec3d from = position(tile, PaddedMask::x(n), PaddedMask::y(n), PaddedMask::z(n), 0.0);
-            if (cutInFirstHalf(phi(from), phi(from + 0.5 * edge), phi(from + edge))) nearer.set(n);
-        });
+    EdgeRows nearerToA(const openvdb::Coord& tile, const EdgeRows& cut) override {
+        EdgeRows nearer;
+        for (int d = 0; d < bcc::kDirections; ++d) {
+            const openvdb::Vec3d edge = shortEdge(d);
+            cut[d].forEach([&](int n) {
+                const openvdb::Vec3d from =
+                    position(tile, PaddedMask::x(n), PaddedMask::y(n), PaddedMask::z(n), 0.0);
+                if (cutInFirstHalf(phi(from), phi(from + 0.5 * edge), phi(from + edge))) nearer[d].set(n);
+            });
+        }
         return nearer;
     }
 
@@ -109,9 +112,9 @@ public:
         mBlock.signs(a, b);
     }
 
-    PaddedMask nearerToA(const openvdb::Coord& tile, int direction, const PaddedMask& cut) override {
+    EdgeRows nearerToA(const openvdb::Coord& tile, const EdgeRows& cut) override {
         load(tile);
-        return mBlock.nearerToA(direction, cut);
+        return mBlock.nearerToA(cut);
     }
 
     void cutPoints(const openvdb::Coord& tile, bcc::Lattice lattice, const EdgeMasks& edges,
@@ -121,43 +124,31 @@ public:
     }
 
 private:
+    using ValueT = typename GridT::ValueType;
+
     /// Copy the tile's voxels and a border of one from the leaves.
     void load(const openvdb::Coord& tile) {
         if (mLoaded && tile == mTile) return;
         mLoaded = true;
         mTile = tile;
+        std::array<const ValueT*, 27> leaves;
         for (int slot = 0; slot < 27; ++slot) {
-            const int step[3] = {slot / 9 - 1, slot / 3 % 3 - 1, slot % 3 - 1};
-            const openvdb::Coord origin(8 * (tile.x() + step[0]), 8 * (tile.y() + step[1]),
-                                        8 * (tile.z() + step[2]));
+            const openvdb::Coord origin(8 * (tile.x() + slot / 9 - 1), 8 * (tile.y() + slot / 3 % 3 - 1),
+                                        8 * (tile.z() + slot % 3 - 1));
             if (const auto* leaf = mAccessor.probeConstLeaf(origin)) {
-                const auto* data = leaf->buffer().data();
-                copy(step, [&](int n) { return mLevel.phi(data[n]); });
+                leaves[slot] = leaf->buffer().data();
             } else {
-                const double constant = mLevel.phi(mAccessor.getValue(origin));
-                copy(step, [&](int) { return constant; });
+                leaves[slot] = constantLeaf(slot, mAccessor.getValue(origin));
             }
         }
+        mBlock.load(leaves, mLevel);
     }
 
-    /// Fill the part of the block that lies in the leaf at @a step from @a value, which gives a leaf's voxels.
-    template <typename Value>
-    void copy(const int (&step)[3], const Value& value) {
-        const auto first = [](int s) { return s < 0 ? -1 : s > 0 ? 8 : 0; };
-        const auto last = [](int s) { return s < 0 ? -1 : s > 0 ? 8 : 7; };
-        for (int x = first(step[0]); x <= last(step[0]); ++x) {
-            for (int y = first(step[1]); y <= last(step[1]); ++y) {
-                double* row = mBlock.row(x, y);
-                const int n = TileMask::bit(x & 7, y & 7, 0);
-                if (step[2] < 0) {
-                    row[-1] = value(n + 7);
-                } else if (step[2] > 0) {
-                    row[8] = value(n);
-                } else {
-                    for (int z = 0; z < 8; ++z) row[z] = value(n + z);
-                }
-            }
-        }
+    /// @return as many times @a value as a leaf has voxels, valid until the next call for this slot.
+    const ValueT* constantLeaf(int slot, ValueT value) {
+        std::vector<ValueT>& leaf = mConstant[slot];
+        if (leaf.empty() || leaf.front() != value) leaf.assign(TileMask::kSize, value);
+        return leaf.data();
     }
 
     typename GridT::ConstAccessor mAccessor;
@@ -165,6 +156,7 @@ private:
     openvdb::Coord mTile;
     bool mLoaded = false;
     VoxelBlock mBlock; ///< of mTile
+    std::array<std::vector<ValueT>, 27> mConstant;
 };
 
 template <typename GridT>
@@ -175,7 +167,11 @@ public:
         : mGrid(grid), mFrame(frame), mLevel(level), mOnVoxels(frame.toIndex == openvdb::Mat3d::identity()) {}
 
     std::vector<openvdb::Coord> surfaceTiles(std::int64_t maxTiles, Interrupt& interrupt) const override {
-        return tilesNearSurface(mGrid.tree(), mFrame, mLevel, kClearance, maxTiles, interrupt);
+        // A cut edge lies in a cube of mixed signs. On voxels, then, the cube's box has both ends of the edge, and
+        // the octahedra of the tile reach half a cell beyond its vertices, and one above. Else the edge
+        // need only touch the box, which may be half a cell from its ends.
+        const double clearance = mOnVoxels ? 0.5 : 1.5;
+        return tilesNearSurface(mGrid.tree(), mFrame, mLevel, clearance, maxTiles, interrupt);
     }
 
     std::unique_ptr<Sampler> sampler() const override {

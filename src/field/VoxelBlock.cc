@@ -3,9 +3,9 @@
 #include "field/VoxelBlock.h"
 
 #include "field/Diagonal.h"
-#include "field/Root.h"
 
 #include <cstring>
+#include <type_traits>
 
 namespace vdbtet {
 
@@ -43,10 +43,54 @@ struct CornerOffsets {
 };
 constexpr CornerOffsets kCorners;
 
+/// Call @a body with each direction as a constant.
+template <typename Body>
+void forEachDirection(const Body& body) {
+    body(std::integral_constant<int, 0>());
+    body(std::integral_constant<int, 1>());
+    body(std::integral_constant<int, 2>());
+    body(std::integral_constant<int, 3>());
+    body(std::integral_constant<int, 4>());
+    body(std::integral_constant<int, 5>());
+    body(std::integral_constant<int, 6>());
+    body(std::integral_constant<int, 7>());
+}
+
 } // namespace
 
-void VoxelBlock::corners(int n, int direction, double (&p)[8]) const {
-    for (int corner = 0; corner < 8; ++corner) p[corner] = mPhi[n + kCorners.of[direction][corner]];
+template <typename T>
+void VoxelBlock::load(const std::array<const T*, 27>& leaves, const Level& level) {
+    const double isovalue = level.isovalue;
+    const bool below = level.insideIsBelow;
+    runOn(mIsa, [&]() VDBTET_KERNEL {
+        for (int x = -1; x <= 8; ++x) {
+            for (int y = -1; y <= 8; ++y) {
+                const T* const* column = &leaves[neighbourSlot(tileStep(x), tileStep(y), -1)];
+                const int n = TileMask::bit(x & 7, y & 7, 0);
+                double* row = mPhi + PaddedMask::bit(x, y, 0);
+                const auto copy = [&](const auto& phi) VDBTET_KERNEL {
+                    row[-1] = phi(column[0][n + 7]);
+                    for (int z = 0; z < 8; ++z) row[z] = phi(column[1][n + z]);
+                    row[8] = phi(column[2][n]);
+                };
+                if (below) {
+                    copy([=](double value) VDBTET_KERNEL { return isovalue - value; });
+                } else {
+                    copy([=](double value) VDBTET_KERNEL { return value - isovalue; });
+                }
+            }
+        }
+    });
+}
+
+template void VoxelBlock::load(const std::array<const float*, 27>&, const Level&);
+template void VoxelBlock::load(const std::array<const double*, 27>&, const Level&);
+
+template <int kDirection>
+void VoxelBlock::addEdge(int n) {
+    constexpr auto& kOffsets = kCorners.of[kDirection];
+    for (int corner = 0; corner < 8; ++corner) mEdges.corners[corner][mEdges.count] = mPhi[n + kOffsets[corner]];
+    ++mEdges.count;
 }
 
 void VoxelBlock::signs(PaddedMask& a, PaddedMask& b) const {
@@ -73,39 +117,59 @@ void VoxelBlock::signs(PaddedMask& a, PaddedMask& b) const {
     });
 }
 
-PaddedMask VoxelBlock::nearerToA(int direction, const PaddedMask& cut) const {
-    PaddedMask nearer;
-    cut.forEach([&](int n) {
-        double p[8];
-        corners(n, direction, p);
-        const Diagonal phi = Diagonal::of(p);
-        nearer.rows[n >> 4] |= std::uint16_t(unsigned(cutInFirstHalf(p[0], phi(0.5), phi(1.0))) << (n & 15));
+EdgeRows VoxelBlock::nearerToA(const EdgeRows& cut) {
+    EdgeRows nearer;
+    std::array<std::int16_t, CutEdges::kLanes> edge; // of each lane: the direction and the vertex
+    mEdges.count = 0;
+    const auto flush = [&] {
+        for (std::uint32_t set = cutsInFirstHalf(mEdges, mIsa); set != 0; set &= set - 1) {
+            const int code = edge[lowestBit(set)];
+            nearer[code & 7].set(code >> 3);
+        }
+        mEdges.count = 0;
+    };
+    forEachDirection([&](auto d) {
+        cut[d].forEach([&](int n) {
+            edge[mEdges.count] = std::int16_t(n << 3 | d);
+            addEdge<d>(n);
+            if (mEdges.full()) flush();
+        });
     });
+    flush();
     return nearer;
 }
 
 void VoxelBlock::cutPoints(bcc::Lattice lattice, const EdgeMasks& edges, float* distance) {
-    mEdges.clear();
-    for (int d = 0; d < bcc::kDirections; ++d) {
-        // The voxel at the edge's L_A end, and the direction from there.
-        const bcc::Step step = lattice == bcc::A ? bcc::Step{0, 0, 0} : bcc::shortEdge(bcc::B, d);
-        const int toA = PaddedMask::step(step.x, step.y, step.z);
-        const int fromA = lattice == bcc::A ? d : bcc::opposite(d);
-        edges[d].forEach([&](int n) {
-            double p[8];
-            corners(PaddedMask::bit(n) + toA, fromA, p);
-            const Diagonal phi = Diagonal::of(p);
-            if (lattice == bcc::A) {
-                mEdges.add(phi, p[0]);
-                return;
+    const bool fromB = lattice == bcc::B;
+    mEdges.count = 0;
+    const auto flush = [&] {
+        distancesToCuts(mEdges, fromB ? ~std::uint32_t(0) : 0, distance, mIsa);
+        distance += mEdges.count;
+        mEdges.count = 0;
+    };
+    forEachDirection([&](auto d) {
+        edges[d].forEach([&](int vertex) {
+            const int n = PaddedMask::bit(vertex);
+            if (fromB) {
+                // From its L_A end the edge runs the opposite way. The centre's value is summed in the order of
+                // signs(): else its sign could differ.
+                constexpr bcc::Step step = bcc::shortEdge(bcc::B, d);
+                mEdges.near[mEdges.count] = centre(n);
+                addEdge<bcc::opposite(d)>(n + PaddedMask::step(step.x, step.y, step.z));
+            } else {
+                mEdges.near[mEdges.count] = mPhi[n];
+                addEdge<d>(n);
             }
-            // Summed in the order of signs(): else its sign could differ.
-            double q[8];
-            for (int corner = 0; corner < 8; ++corner) q[corner] = p[corner ^ bcc::opposite(fromA)];
-            mEdges.add(phi, centreValue(q));
+            if (mEdges.full()) flush();
         });
-    }
-    distancesToCuts(mEdges, lattice == bcc::B, distance, mIsa);
+    });
+    flush();
+}
+
+double VoxelBlock::centre(int n) const {
+    double p[8];
+    for (int corner = 0; corner < 8; ++corner) p[corner] = mPhi[n + kCorners.of[7][corner]];
+    return centreValue(p);
 }
 
 } // namespace vdbtet

@@ -6,7 +6,10 @@
 #include "bits/PaddedMask.h"
 #include "field/CutDistances.h"
 #include "field/Field.h"
+#include "field/Level.h"
 #include "simd/Isa.h"
+
+#include <array>
 
 namespace vdbtet {
 
@@ -16,20 +19,29 @@ class VoxelBlock {
 public:
     explicit VoxelBlock(Isa isa = bestIsa()) : mIsa(isa) {}
 
-    double* row(int x, int y) { return mPhi + PaddedMask::bit(x, y, 0); }
+    /// @param leaves  the 512 voxels of each leaf around the tile, by neighbourSlot()
+    template <typename T>
+    void load(const std::array<const T*, 27>& leaves, const Level& level);
 
     void signs(PaddedMask& a, PaddedMask& b) const;
-    PaddedMask nearerToA(int direction, const PaddedMask& cut) const;
+    EdgeRows nearerToA(const EdgeRows& cut);
     void cutPoints(bcc::Lattice lattice, const EdgeMasks& edges, float* distance);
 
 private:
-    /// The corners of the cube on the side of voxel @a n in @a direction; p[0] is that voxel's.
-    void corners(int n, int direction, double (&p)[8]) const;
+    /// Add the edge from voxel @a n in a direction to mEdges.
+    template <int kDirection>
+    void addEdge(int n);
+
+    /// The field at the centre of the cube whose lowest voxel is @a n: at that vertex of L_B.
+    double centre(int n) const;
 
     Isa mIsa;
     /// What lies between the rows is zero; the last row is read beyond its end.
     alignas(64) double mPhi[PaddedMask::kSize + PaddedMask::kRowBits] = {};
     CutEdges mEdges;
 };
+
+extern template void VoxelBlock::load(const std::array<const float*, 27>&, const Level&);
+extern template void VoxelBlock::load(const std::array<const double*, 27>&, const Level&);
 
 } // namespace vdbtet

@@ -1,0 +1,135 @@
+/// @file Slices.cc
+/// Qualities one at a time and in lanes.
+#include "flips/Slices.h"
+
+#include "flips/Flips.h"
+#include "quality/Dihedral.h"
+
+#include <vdbtet/Quality.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace vdbtet {
+
+using openvdb::Vec3d;
+
+namespace {
+
+constexpr double kMinAngle = 11.47; // degrees; the policy of Algorithm 4
+constexpr double kTieAngle = 1e-5;  // degrees; more than distances in float can turn an angle
+
+/// The octahedra of active spines, as many as there are lanes.
+struct ActiveBatch {
+    static constexpr int kLanes = 16;
+
+    double at[5][3][kLanes]; ///< the inside end of the spine, then its ring
+    double side[kLanes];     ///< 1 where that is the upper end, else -1
+    /// By slice, A and B.
+    double minCos[2][kLanes], maxCos[2][kLanes], minVolume[2][kLanes];
+
+    void set(int lane, const LocalVertices& vertices, const LocalOctahedron& octahedron) {
+        const int end = vertices.state(octahedron[1]) == State::Inside ? 1 : 0;
+        side[lane] = end == 1 ? 1.0 : -1.0;
+        for (int v = 0; v < 5; ++v) {
+            const Vec3d& position = vertices.position(octahedron[v == 0 ? end : v + 1]);
+            for (int axis = 0; axis < 3; ++axis) at[v][axis][lane] = position[axis];
+        }
+    }
+
+    SliceQuality quality(int slice, int lane) const {
+        return {minVolume[slice][lane] <= 0.0, minCos[slice][lane], maxCos[slice][lane]};
+    }
+
+    void judge(Isa isa);
+};
+
+void ActiveBatch::judge(Isa isa) {
+    runOn(isa, [&]() VDBTET_KERNEL {
+        for (int i = 0; i < kLanes; ++i) {
+            const auto vertex = [&](int v) VDBTET_KERNEL { return Triple{at[v][0][i], at[v][1][i], at[v][2][i]}; };
+            const Triple end = vertex(0);
+            for (int slice = 0; slice < 2; ++slice) {
+                // The ring from an end of the diagonal on.
+                const Triple from = vertex(slice == 0 ? 1 : 4), second = vertex(slice == 0 ? 2 : 1),
+                             third = vertex(slice == 0 ? 3 : 2), fourth = vertex(slice == 0 ? 4 : 3);
+                double one[6], two[6];
+                // Slice A has the tets 2 3 4 and 2 4 5 of the ring, slice B 5 2 3 and 5 3 4.
+                dihedralCosines(from, second, third, end, one);
+                dihedralCosines(from, third, fourth, end, two);
+                double least = one[0], most = one[0];
+                for (int k = 0; k < 6; ++k) {
+                    least = one[k] < least ? one[k] : least;
+                    least = two[k] < least ? two[k] : least;
+                    most = most < one[k] ? one[k] : most;
+                    most = most < two[k] ? two[k] : most;
+                }
+                minCos[slice][i] = least;
+                maxCos[slice][i] = most;
+                const double volume1 = side[i] * dot(cross(second - from, third - from), end - from),
+                             volume2 = side[i] * dot(cross(third - from, fourth - from), end - from);
+                minVolume[slice][i] = volume1 < volume2 ? volume1 : volume2;
+            }
+        }
+    });
+}
+
+} // namespace
+
+SliceQuality sliceQuality(const LocalVertices& vertices, const LocalOctahedron& octahedron,
+                          bcc::Slice slice) {
+    SliceQuality quality;
+    for (const auto& tet : bcc::kSliceTets[slice]) {
+        int manifold = 0;
+        bool outside = false;
+        const Vec3d* p[4];
+        for (int i = 0; i < 4; ++i) {
+            const int local = octahedron[tet[i]];
+            p[i] = &vertices.position(local);
+            manifold += vertices.manifold(local);
+            outside = outside || vertices.state(local) == State::Outside;
+        }
+        if (outside || manifold == 4) continue;
+        // An inverted tet can show fine angles by the unsigned formula.
+        if (signedVolume6(*p[0], *p[1], *p[2], *p[3]) <= 0.0) quality.inverted = true;
+        for (double cosine : dihedralCosines(*p[0], *p[1], *p[2], *p[3])) {
+            quality.minCos = std::min(quality.minCos, cosine);
+            quality.maxCos = std::max(quality.maxCos, cosine);
+        }
+    }
+    return quality;
+}
+
+bool better(const SliceQuality& a, const SliceQuality& b) {
+    if (a.inverted != b.inverted) return b.inverted;
+    // Away from ties cosines decide alone; 1e-6 of a cosine is more than any tie of angles.
+    constexpr double kClear = 1e-6, kMinCos = 0.98002895910;
+    const auto clear = [](double x, double y) { return std::abs(x - y) > kClear; };
+    if (clear(a.maxCos, b.maxCos) && clear(a.minCos, b.minCos) && clear(a.maxCos, kMinCos) &&
+        clear(b.maxCos, kMinCos)) {
+        return a.maxCos < kMinCos && b.maxCos < kMinCos ? a.minCos > b.minCos : a.maxCos < b.maxCos;
+    }
+    const double minA = angleOf(a.maxCos), maxA = angleOf(a.minCos), minB = angleOf(b.maxCos),
+                 maxB = angleOf(b.minCos);
+    const bool sameMin = std::abs(minA - minB) <= kTieAngle, sameMax = std::abs(maxA - maxB) <= kTieAngle;
+    if (minA > kMinAngle && minB > kMinAngle) return sameMax ? !sameMin && minA > minB : maxA < maxB;
+    return sameMin ? !sameMax && maxA < maxB : minA > minB;
+}
+
+void chooseActiveSlices(const LocalVertices& vertices, const std::vector<LocalOctahedron>& octahedra,
+                        std::vector<bcc::Slice>& slices, Isa isa) {
+    slices.clear();
+    ActiveBatch batch;
+    for (std::size_t first = 0; first < octahedra.size(); first += ActiveBatch::kLanes) {
+        const int count = int(std::min<std::size_t>(ActiveBatch::kLanes, octahedra.size() - first));
+        for (int lane = 0; lane < ActiveBatch::kLanes; ++lane)
+            batch.set(lane, vertices, octahedra[first + std::size_t(std::min(lane, count - 1))]);
+        batch.judge(isa);
+        for (int lane = 0; lane < count; ++lane) {
+            const bool slicesB = better(batch.quality(1, lane), batch.quality(0, lane));
+            slices.push_back(slicesB ? bcc::SliceB : bcc::SliceA);
+        }
+    }
+}
+
+} // namespace vdbtet

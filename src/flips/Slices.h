@@ -1,0 +1,21 @@
+/// @file Slices.h
+/// How good the tets of an octahedron's slice are, and which of two slices is the better one (paper, Algorithm 4).
+#pragma once
+
+#include "destinations/LocalVertices.h"
+
+namespace vdbtet {
+
+/// The extremes over the tets of a slice that will be in the mesh; cosines fall as angles grow.
+struct SliceQuality {
+    bool inverted = false;
+    double minCos = 1.0, maxCos = -1.0;
+};
+
+/// @return the quality of one slice of any octahedron.
+SliceQuality sliceQuality(const LocalVertices& vertices, const LocalOctahedron& octahedron, bcc::Slice slice);
+
+/// The policy of Algorithm 4, made safe against inverted tets and rounding.
+bool better(const SliceQuality& a, const SliceQuality& b);
+
+} // namespace vdbtet
