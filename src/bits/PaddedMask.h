@@ -37,7 +37,7 @@ public:
     explicit PaddedMask(const MasksAround& around);
 
     bool test(int n) const { return rows[n >> 4] >> (n & 15) & 1; }
-    void set(int n) { rows[n >> 4] |= std::uint16_t(1u << (n & 15)); }
+    void set(int n, bool on = true) { rows[n >> 4] |= std::uint16_t(unsigned(on) << (n & 15)); }
     void remove(const PaddedMask& other) {
         for (int r = 0; r < kRows; ++r) rows[r] &= std::uint16_t(~other.rows[r]);
     }
@@ -67,9 +67,11 @@ public:
     /// Call @a visit(n) for each set bit, in ascending order.
     template <typename Visit>
     void forEach(Visit&& visit) const {
-        for (int r = 0; r < kRows; ++r) {
-            for (unsigned row = rows[r]; row != 0; row &= row - 1) visit(r * kRowBits + __builtin_ctz(row));
-        }
+        constexpr int kWords = kRows / 4;
+        static_assert(4 * kWords == kRows && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "rows must fill words");
+        std::uint64_t words[kWords];
+        std::memcpy(words, rows, sizeof words);
+        forEachBit(words, visit);
     }
 
     std::uint16_t rows[kRows] = {}; ///< x-major

@@ -4,6 +4,7 @@
 /// A bit's number is x<<6 | y<<3 | z, as in a VDB leaf: a word is an x-slab, a byte a z-row.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -12,16 +13,37 @@ namespace vdbtet {
 inline int countBits(std::uint64_t word) { return __builtin_popcountll(word); }
 inline int lowestBit(std::uint64_t word) { return __builtin_ctzll(word); }
 
+/// @brief Call @a visit(n) for each set bit of some words, in ascending order.
+/// @details A loop over the bits of each word would guess its end wrong nearly every time: most words have none,
+/// one or two. Here they are listed first, two from each word whatever it has.
+template <int kWords, typename Visit>
+void forEachBit(const std::uint64_t (&words)[kWords], Visit&& visit) {
+    constexpr std::uint64_t kTop = std::uint64_t(1) << 63; // keeps the lowest bit of nothing defined
+    std::uint16_t list[kWords * 64 + 2];
+    std::uint16_t* next = list;
+    for (int w = 0; w < kWords; ++w) {
+        std::uint64_t word = words[w];
+        std::uint16_t* const end = next + countBits(word);
+        next[0] = std::uint16_t(w << 6 | lowestBit(word | kTop));
+        word &= word - 1;
+        next[1] = std::uint16_t(w << 6 | lowestBit(word | kTop));
+        word &= word - 1;
+        for (next += 2; next < end; ++next, word &= word - 1) *next = std::uint16_t(w << 6 | lowestBit(word));
+        next = end;
+    }
+    for (const std::uint16_t* n = list; n != next; ++n) visit(int(*n));
+}
+
 struct TileMask {
     static constexpr int kDim = 8;
     static constexpr int kSize = kDim * kDim * kDim;
 
-    std::array<std::uint64_t, kDim> words{};
+    std::uint64_t words[kDim] = {};
 
     static constexpr int bit(int x, int y, int z) { return x << 6 | y << 3 | z; }
     static TileMask filled(bool on) {
         TileMask mask;
-        mask.words.fill(on ? ~std::uint64_t(0) : 0);
+        for (auto& word : mask.words) word = on ? ~std::uint64_t(0) : 0;
         return mask;
     }
 
@@ -54,9 +76,7 @@ struct TileMask {
     /// Call @a visit(n) for each set bit, in ascending order.
     template <typename Visit>
     void forEach(Visit&& visit) const {
-        for (int w = 0; w < kDim; ++w) {
-            for (std::uint64_t word = words[w]; word != 0; word &= word - 1) visit(w << 6 | lowestBit(word));
-        }
+        forEachBit(words, visit);
     }
 
     TileMask& operator&=(const TileMask& o) {
@@ -78,7 +98,9 @@ struct TileMask {
         for (auto& word : a.words) word = ~word;
         return a;
     }
-    friend bool operator==(const TileMask& a, const TileMask& b) { return a.words == b.words; }
+    friend bool operator==(const TileMask& a, const TileMask& b) {
+        return std::equal(a.words, a.words + kDim, b.words);
+    }
     friend bool operator!=(const TileMask& a, const TileMask& b) { return !(a == b); }
 };
 

@@ -32,34 +32,49 @@ struct TileCuts {
     std::int64_t cutEdges = 0; ///< that start at its L_A vertices
 };
 
-TileCuts findTileCuts(Field::Sampler& sampler, const openvdb::Coord& tile) {
-    TileCuts cuts;
-    PaddedMask a, b;
-    sampler.signs(tile, a, b);
-    cuts.signs = {a.core(), b.core()};
+/// Finds the signs and arrows of one tile after another.
+class TileCutter {
+public:
+    explicit TileCutter(std::unique_ptr<Field::Sampler> sampler) : mSampler(std::move(sampler)) {}
 
-    EdgeRows cut;
-    bool any = false;
-    for (int d = 0; d < bcc::kDirections; ++d) {
-        cut[d] = cutEdges(a, b, d);
-        any = any || cut[d].any();
-    }
-    if (!any) return cuts;
+    TileCuts cut(const openvdb::Coord& tile) {
+        TileCuts cuts;
+        PaddedMask a, b;
+        mSampler->signs(tile, a, b);
+        cuts.signs = {a.core(), b.core()};
 
-    const EdgeRows nearer = sampler.nearerToA(tile, cut);
-    auto arrows = std::make_unique<TileArrows>();
-    for (int d = 0; d < bcc::kDirections; ++d) {
-        cuts.cutEdges += cut[d].core().count();
-        (*arrows)[bcc::A][d] = nearer[d].core();
-        cut[d].remove(nearer[d]);
-        // From its L_B end the edge runs the opposite way.
-        const int back = bcc::opposite(d);
-        const bcc::Step step = bcc::shortEdge(bcc::B, back);
-        (*arrows)[bcc::B][back] = cut[d].shifted(step.x, step.y, step.z);
+        std::array<PaddedMask, bcc::kDirections> cut, nearer;
+        mEdges.clear();
+        for (int d = 0; d < bcc::kDirections; ++d) {
+            cut[d] = cutEdges(a, b, d);
+            cut[d].forEach(
+                [&](int n) { mEdges.push_back({std::uint16_t(n), std::uint16_t(d)}); });
+            cuts.cutEdges += cut[d].core().count();
+        }
+        if (mEdges.empty()) return cuts;
+
+        mNearer.resize(mEdges.size());
+        mSampler->nearerToA(tile, mEdges, mNearer.data());
+        for (std::size_t i = 0; i < mEdges.size(); ++i)
+            nearer[mEdges[i].direction].set(mEdges[i].vertex, mNearer[i]);
+        auto arrows = std::make_unique<TileArrows>();
+        for (int d = 0; d < bcc::kDirections; ++d) {
+            (*arrows)[bcc::A][d] = nearer[d].core();
+            cut[d].remove(nearer[d]);
+            // From its L_B end the edge runs the opposite way.
+            const int back = bcc::opposite(d);
+            const bcc::Step step = bcc::shortEdge(bcc::B, back);
+            (*arrows)[bcc::B][back] = cut[d].shifted(step.x, step.y, step.z);
+        }
+        cuts.arrows = std::move(arrows);
+        return cuts;
     }
-    cuts.arrows = std::move(arrows);
-    return cuts;
-}
+
+private:
+    std::unique_ptr<Field::Sampler> mSampler;
+    std::vector<ShortEdge> mEdges;
+    std::vector<std::uint8_t> mNearer; ///< of mEdges
+};
 
 } // namespace
 
@@ -76,10 +91,10 @@ Cuts findCuts(const Field& field, const std::vector<openvdb::Coord>& tiles, Inte
     cuts.arrows.of.resize(tiles.size());
     std::atomic<std::int64_t> cutEdges{0};
     parallelRanges(std::int64_t(tiles.size()), interrupt, [&](std::int64_t begin, std::int64_t end) {
-        const auto sampler = field.sampler();
+        TileCutter cutter(field.sampler());
         std::int64_t sum = 0;
         for (std::int64_t t = begin; t < end; ++t) {
-            TileCuts tile = findTileCuts(*sampler, tiles[t]);
+            TileCuts tile = cutter.cut(tiles[t]);
             cuts.signs[t] = tile.signs;
             cuts.arrows.of[t] = std::move(tile.arrows);
             sum += tile.cutEdges;

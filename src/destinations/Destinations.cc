@@ -4,6 +4,8 @@
 
 #include "bits/PaddedMask.h"
 
+#include <algorithm>
+
 namespace vdbtet {
 
 namespace {
@@ -16,41 +18,40 @@ class Nearest {
 public:
     void find(Field::Sampler& sampler, const openvdb::Coord& tile, bcc::Lattice lattice,
               const EdgeMasks& edges) {
-        int count = 0;
-        for (const TileMask& mask : edges) count += mask.count();
-        mCuts.resize(count);
-        sampler.cutPoints(tile, lattice, edges, mCuts.data());
-
-        mDistance.fill(2.0f);
-        forEachCut(edges, [&](int, int vertex, float distance) {
-            if (distance < mDistance[vertex]) mDistance[vertex] = distance;
-        });
-        // The first direction, in ascending order, that is as near as the nearest.
-        mDirection.fill(kNone);
-        forEachCut(edges, [&](int direction, int vertex, float distance) {
-            if (mDirection[vertex] != kNone || distance > mDistance[vertex] + kTie) return;
-            mDirection[vertex] = std::uint8_t(direction);
-            mDistance[vertex] = distance;
-        });
-    }
-
-    float distance(int vertex) const { return mDistance[vertex]; }
-    std::uint8_t direction(int vertex) const { return mDirection[vertex]; }
-
-private:
-    static constexpr std::uint8_t kNone = 255;
-
-    template <typename Visit>
-    void forEachCut(const EdgeMasks& edges, Visit&& visit) const {
-        const float* cut = mCuts.data();
+        mEdges.clear();
         for (int d = 0; d < bcc::kDirections; ++d) {
-            edges[d].forEach([&](int vertex) { visit(d, vertex, *cut++); });
+            edges[d].forEach([&](int n) {
+                const int vertex = PaddedMask::bit(n);
+                mEdges.push_back({std::uint16_t(vertex), std::uint16_t(d)});
+                mDistance[vertex] = 2.0f;
+            });
+        }
+        mCuts.resize(mEdges.size());
+        sampler.cutPoints(tile, lattice, mEdges, mCuts.data());
+        for (std::size_t i = 0; i < mEdges.size(); ++i) {
+            float& distance = mDistance[mEdges[i].vertex];
+            distance = std::min(distance, mCuts[i]);
+        }
+        // The first direction that is as near as the nearest: the last one that we come by.
+        for (std::size_t i = mEdges.size(); i-- > 0;) {
+            Choice& choice = mChoice[mEdges[i].vertex];
+            const Choice other{mCuts[i], mEdges[i].direction};
+            choice = mCuts[i] > mDistance[mEdges[i].vertex] + kTie ? choice : other;
         }
     }
 
-    std::vector<float> mCuts;
-    std::array<float, TileMask::kSize> mDistance;
-    std::array<std::uint8_t, TileMask::kSize> mDirection;
+    struct Choice {
+        float distance;
+        std::uint32_t direction;
+    };
+    /// Of a vertex with edges.
+    const Choice& choice(int vertex) const { return mChoice[PaddedMask::bit(vertex)]; }
+
+private:
+    std::vector<ShortEdge> mEdges;
+    std::vector<float> mCuts;                         ///< of mEdges
+    std::array<float, PaddedMask::kSize> mDistance{}; ///< of vertices with edges, as the next
+    std::array<Choice, PaddedMask::kSize> mChoice{};
 };
 
 } // namespace
@@ -90,8 +91,8 @@ Destinations findDestinations(const Field& field, const Layout& layout, const Ar
                 nearest.find(*sampler, layout.surfaceTiles[t], lattice, edges);
                 std::int64_t move = destinations.first[t][lattice];
                 manifold.forEach([&](int vertex) {
-                    destinations.distances[move] = nearest.distance(vertex);
-                    destinations.directions[move] = nearest.direction(vertex);
+                    destinations.distances[move] = nearest.choice(vertex).distance;
+                    destinations.directions[move] = std::uint8_t(nearest.choice(vertex).direction);
                     ++move;
                 });
             }

@@ -17,7 +17,7 @@ constexpr int kLanes = CutEdges::kLanes;
 /// The diagonals of all lanes.
 struct Lanes {
     double b0[kLanes], b1[kLanes], b2[kLanes], b3[kLanes];
-    double start[kLanes], slope[kLanes]; ///< a diagonal's parameter at the fraction x of its edge's near half
+    double start = 0.0, slope = 0.0; ///< the diagonal's parameter is start + slope * (fraction of the near half)
 
     VDBTET_KERNEL inline explicit Lanes(const CutEdges& edges) {
         for (int i = 0; i < kLanes; ++i) {
@@ -32,7 +32,7 @@ struct Lanes {
     }
     VDBTET_KERNEL inline Diagonal diagonal(int i) const { return {b0[i], b1[i], b2[i], b3[i]}; }
     VDBTET_KERNEL inline double evaluate(int i, double x) const {
-        return diagonal(i)(start[i] + slope[i] * x);
+        return diagonal(i)(start + slope * x);
     }
 };
 
@@ -102,14 +102,11 @@ std::uint32_t cutsInFirstHalf(const CutEdges& edges, Isa isa) {
     return edges.full() ? result : result & ((std::uint32_t(1) << edges.count) - 1);
 }
 
-void distancesToCuts(const CutEdges& edges, std::uint32_t nearIsB, float* distance, Isa isa) {
+void distancesToCuts(const CutEdges& edges, bool nearIsB, float* distance, Isa isa) {
     runOn(isa, [&]() VDBTET_KERNEL {
         Lanes lanes(edges);
-        for (int i = 0; i < kLanes; ++i) {
-            const bool fromB = nearIsB >> i & 1;
-            lanes.start[i] = fromB ? 1.0 : 0.0;
-            lanes.slope[i] = fromB ? -0.5 : 0.5;
-        }
+        lanes.start = nearIsB ? 1.0 : 0.0;
+        lanes.slope = nearIsB ? -0.5 : 0.5;
         double root[kLanes];
         nearHalfRoots(lanes, edges.near, edges.count, root);
         for (int i = 0; i < edges.count; ++i) distance[i] = float(0.5 * root[i]);

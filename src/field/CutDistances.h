@@ -25,8 +25,8 @@ struct CutEdges {
 std::uint32_t cutsInFirstHalf(const CutEdges& edges, Isa isa);
 
 /// @brief distanceToCut() of the edges.
-/// @param nearIsB   by bit, whether an edge's near end is that of L_B
+/// @param nearIsB   whether the near ends are those of L_B
 /// @param distance  receives as many numbers as there are edges
-void distancesToCuts(const CutEdges& edges, std::uint32_t nearIsB, float* distance, Isa isa);
+void distancesToCuts(const CutEdges& edges, bool nearIsB, float* distance, Isa isa);
 
 } // namespace vdbtet

@@ -25,8 +25,11 @@ using TileSigns = std::array<TileMask, 2>;
 /// For each direction the vertices of a tile that have some property along the short edge that way.
 using EdgeMasks = std::array<TileMask, bcc::kDirections>;
 
-/// The same in a tile and a border of one around it.
-using EdgeRows = std::array<PaddedMask, bcc::kDirections>;
+/// A short edge from a vertex of some lattice in or around a tile.
+struct ShortEdge {
+    std::uint16_t vertex; ///< its PaddedMask::bit()
+    std::uint16_t direction;
+};
 
 class Field {
 public:
@@ -51,19 +54,19 @@ public:
         /// @details A vertex gets the same sign from every tile. Bits farther out are arbitrary.
         virtual void signs(const openvdb::Coord& tile, PaddedMask& a, PaddedMask& b) = 0;
 
-        /// @brief Decide which end of a cut short edge is the nearer one to its cut point.
-        /// @param cut  for each direction L_A vertices at 0 to 8 whose short edge that way leads to an L_B vertex
-        /// at -1 to 7 of the other sign
-        /// @return those of them to which the cut point is nearer than to the L_B end, or as near.
-        virtual EdgeRows nearerToA(const openvdb::Coord& tile, const EdgeRows& cut) = 0;
+        /// @brief Decide which ends of cut short edges are the nearer ones to their cut points.
+        /// @param edges   from L_A vertices at 0 to 8 to L_B vertices at -1 to 7 of the other sign
+        /// @param nearer  receives for each edge 1 if the cut point is nearer to the L_A end, or as near; else 0
+        virtual void nearerToA(const openvdb::Coord& tile, const std::vector<ShortEdge>& edges,
+                               std::uint8_t* nearer) = 0;
 
         /// @brief Find cut points from their nearer ends.
-        /// @param lattice  which vertices of @a tile
-        /// @param edges    for each direction the vertices whose edge that way is cut, nearer to them
-        /// @param distance receives for each of them, by direction and then by bit, the distance of the cut
-        /// point as a fraction of the edge, in [0, 1/2]
-        virtual void cutPoints(const openvdb::Coord& tile, bcc::Lattice lattice, const EdgeMasks& edges,
-                               float* distance) = 0;
+        /// @param lattice   that of the nearer ends
+        /// @param edges     from the tile's own vertices
+        /// @param distance  receives for each edge the distance of its cut point as a fraction of the edge, in
+        /// [0, 1/2]
+        virtual void cutPoints(const openvdb::Coord& tile, bcc::Lattice lattice,
+                               const std::vector<ShortEdge>& edges, float* distance) = 0;
     };
 
     virtual std::unique_ptr<Sampler> sampler() const = 0;

@@ -37,47 +37,39 @@ public:
         for (int x = 0; x <= 8; ++x) {
             for (int y = 0; y <= 8; ++y) {
                 for (int z = 0; z <= 8; ++z) {
-                    if (phi(position(tile, x, y, z, 0.0)) >= 0.0) a.set(PaddedMask::bit(x, y, z));
-                    if (phi(position(tile, x - 1, y - 1, z - 1, 0.5)) >= 0.0)
-                        b.set(PaddedMask::bit(x - 1, y - 1, z - 1));
+                    const int n = PaddedMask::bit(x, y, z), below = PaddedMask::bit(x - 1, y - 1, z - 1);
+                    if (phi(position(tile, n, 0.0)) >= 0.0) a.set(n);
+                    if (phi(position(tile, below, 0.5)) >= 0.0) b.set(below);
                 }
             }
         }
     }
 
-    EdgeRows nearerToA(const openvdb::Coord& tile, const EdgeRows& cut) override {
-        EdgeRows nearer;
-        for (int d = 0; d < bcc::kDirections; ++d) {
-            const openvdb::Vec3d edge = shortEdge(d);
-            cut[d].forEach([&](int n) {
-                const openvdb::Vec3d from =
-                    position(tile, PaddedMask::x(n), PaddedMask::y(n), PaddedMask::z(n), 0.0);
-                if (cutInFirstHalf(phi(from), phi(from + 0.5 * edge), phi(from + edge))) nearer[d].set(n);
-            });
+    void nearerToA(const openvdb::Coord& tile, const std::vector<ShortEdge>& edges,
+                   std::uint8_t* nearer) override {
+        for (const ShortEdge& e : edges) {
+            const openvdb::Vec3d from = position(tile, e.vertex, 0.0), edge = vectorOf(e);
+            *nearer++ = cutInFirstHalf(phi(from), phi(from + 0.5 * edge), phi(from + edge));
         }
-        return nearer;
     }
 
-    void cutPoints(const openvdb::Coord& tile, bcc::Lattice lattice, const EdgeMasks& edges,
+    void cutPoints(const openvdb::Coord& tile, bcc::Lattice lattice, const std::vector<ShortEdge>& edges,
                    float* distance) override {
-        for (int d = 0; d < bcc::kDirections; ++d) {
-            const openvdb::Vec3d edge = shortEdge(d);
-            edges[d].forEach([&](int n) {
-                const openvdb::Vec3d from = position(tile, n >> 6, n >> 3 & 7, n & 7, 0.5 * lattice);
-                *distance++ = distanceToCut(phi(from), [&](double s) { return phi(from + s * edge); });
-            });
+        for (const ShortEdge& e : edges) {
+            const openvdb::Vec3d from = position(tile, e.vertex, 0.5 * lattice), edge = vectorOf(e);
+            *distance++ = distanceToCut(phi(from), [&](double s) { return phi(from + s * edge); });
         }
     }
 
 private:
-    static openvdb::Vec3d position(const openvdb::Coord& tile, int x, int y, int z, double shift) {
-        return openvdb::Vec3d(8.0 * tile.x() + x + shift, 8.0 * tile.y() + y + shift,
-                              8.0 * tile.z() + z + shift);
+    /// @param n  a vertex by PaddedMask::bit()
+    static openvdb::Vec3d position(const openvdb::Coord& tile, int n, double shift) {
+        return openvdb::Vec3d(8.0 * tile.x() + PaddedMask::x(n) + shift,
+                              8.0 * tile.y() + PaddedMask::y(n) + shift,
+                              8.0 * tile.z() + PaddedMask::z(n) + shift);
     }
 
-    static openvdb::Vec3d shortEdge(int d) {
-        return openvdb::Vec3d(0.5 * bcc::sign(d, 0), 0.5 * bcc::sign(d, 1), 0.5 * bcc::sign(d, 2));
-    }
+    static openvdb::Vec3d vectorOf(const ShortEdge& e) { return openvdb::Vec3d(bcc::kShortEdges[e.direction]); }
 
     double phi(const openvdb::Vec3d& lattice) {
         const openvdb::Vec3d at = mFrame.toIndex * lattice;
@@ -112,12 +104,13 @@ public:
         mBlock.signs(a, b);
     }
 
-    EdgeRows nearerToA(const openvdb::Coord& tile, const EdgeRows& cut) override {
+    void nearerToA(const openvdb::Coord& tile, const std::vector<ShortEdge>& edges,
+                   std::uint8_t* nearer) override {
         load(tile);
-        return mBlock.nearerToA(cut);
+        mBlock.nearerToA(edges, nearer);
     }
 
-    void cutPoints(const openvdb::Coord& tile, bcc::Lattice lattice, const EdgeMasks& edges,
+    void cutPoints(const openvdb::Coord& tile, bcc::Lattice lattice, const std::vector<ShortEdge>& edges,
                    float* distance) override {
         load(tile);
         mBlock.cutPoints(lattice, edges, distance);

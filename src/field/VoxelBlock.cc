@@ -5,7 +5,6 @@
 #include "field/Diagonal.h"
 
 #include <cstring>
-#include <type_traits>
 
 namespace vdbtet {
 
@@ -43,19 +42,6 @@ struct CornerOffsets {
 };
 constexpr CornerOffsets kCorners;
 
-/// Call @a body with each direction as a constant.
-template <typename Body>
-void forEachDirection(const Body& body) {
-    body(std::integral_constant<int, 0>());
-    body(std::integral_constant<int, 1>());
-    body(std::integral_constant<int, 2>());
-    body(std::integral_constant<int, 3>());
-    body(std::integral_constant<int, 4>());
-    body(std::integral_constant<int, 5>());
-    body(std::integral_constant<int, 6>());
-    body(std::integral_constant<int, 7>());
-}
-
 } // namespace
 
 template <typename T>
@@ -63,20 +49,23 @@ void VoxelBlock::load(const std::array<const T*, 27>& leaves, const Level& level
     const double isovalue = level.isovalue;
     const bool below = level.insideIsBelow;
     runOn(mIsa, [&]() VDBTET_KERNEL {
-        for (int x = -1; x <= 8; ++x) {
-            for (int y = -1; y <= 8; ++y) {
-                const T* const* column = &leaves[neighbourSlot(tileStep(x), tileStep(y), -1)];
-                const int n = TileMask::bit(x & 7, y & 7, 0);
-                double* row = mPhi + PaddedMask::bit(x, y, 0);
-                const auto copy = [&](const auto& phi) VDBTET_KERNEL {
-                    row[-1] = phi(column[0][n + 7]);
-                    for (int z = 0; z < 8; ++z) row[z] = phi(column[1][n + z]);
-                    row[8] = phi(column[2][n]);
-                };
-                if (below) {
-                    copy([=](double value) VDBTET_KERNEL { return isovalue - value; });
-                } else {
-                    copy([=](double value) VDBTET_KERNEL { return value - isovalue; });
+        for (int columns = 0; columns < 9; ++columns) {
+            const T *under = leaves[3 * columns], *middle = leaves[3 * columns + 1], *over = leaves[3 * columns + 2];
+            const int dx = columns / 3 - 1, dy = columns % 3 - 1;
+            for (int x = dx < 0 ? 7 : 0; x <= (dx > 0 ? 0 : 7); ++x) {
+                for (int y = dy < 0 ? 7 : 0; y <= (dy > 0 ? 0 : 7); ++y) {
+                    const int n = TileMask::bit(x, y, 0);
+                    double* row = mPhi + PaddedMask::bit(x + 8 * dx, y + 8 * dy, 0);
+                    const auto copy = [&](const auto& phi) VDBTET_KERNEL {
+                        row[-1] = phi(under[n + 7]);
+                        for (int z = 0; z < 8; ++z) row[z] = phi(middle[n + z]);
+                        row[8] = phi(over[n]);
+                    };
+                    if (below) {
+                        copy([=](double value) VDBTET_KERNEL { return isovalue - value; });
+                    } else {
+                        copy([=](double value) VDBTET_KERNEL { return value - isovalue; });
+                    }
                 }
             }
         }
@@ -86,11 +75,10 @@ void VoxelBlock::load(const std::array<const T*, 27>& leaves, const Level& level
 template void VoxelBlock::load(const std::array<const float*, 27>&, const Level&);
 template void VoxelBlock::load(const std::array<const double*, 27>&, const Level&);
 
-template <int kDirection>
-void VoxelBlock::addEdge(int n) {
-    constexpr auto& kOffsets = kCorners.of[kDirection];
-    for (int corner = 0; corner < 8; ++corner) mEdges.corners[corner][mEdges.count] = mPhi[n + kOffsets[corner]];
-    ++mEdges.count;
+void VoxelBlock::addEdge(int n, int direction) {
+    const auto& offsets = kCorners.of[direction];
+    double* corner = &mEdges.corners[0][mEdges.count++];
+    for (int i = 0; i < 8; ++i) corner[i * CutEdges::kLanes] = mPhi[n + offsets[i]];
 }
 
 void VoxelBlock::signs(PaddedMask& a, PaddedMask& b) const {
@@ -117,53 +105,34 @@ void VoxelBlock::signs(PaddedMask& a, PaddedMask& b) const {
     });
 }
 
-EdgeRows VoxelBlock::nearerToA(const EdgeRows& cut) {
-    EdgeRows nearer;
-    std::array<std::int16_t, CutEdges::kLanes> edge; // of each lane: the direction and the vertex
-    mEdges.count = 0;
-    const auto flush = [&] {
-        for (std::uint32_t set = cutsInFirstHalf(mEdges, mIsa); set != 0; set &= set - 1) {
-            const int code = edge[lowestBit(set)];
-            nearer[code & 7].set(code >> 3);
-        }
+void VoxelBlock::nearerToA(const std::vector<ShortEdge>& edges, std::uint8_t* nearer) {
+    for (std::size_t i = 0; i < edges.size();) {
         mEdges.count = 0;
-    };
-    forEachDirection([&](auto d) {
-        cut[d].forEach([&](int n) {
-            edge[mEdges.count] = std::int16_t(n << 3 | d);
-            addEdge<d>(n);
-            if (mEdges.full()) flush();
-        });
-    });
-    flush();
-    return nearer;
+        for (; i < edges.size() && !mEdges.full(); ++i) addEdge(edges[i].vertex, edges[i].direction);
+        const std::uint32_t first = cutsInFirstHalf(mEdges, mIsa);
+        for (int lane = 0; lane < mEdges.count; ++lane) *nearer++ = first >> lane & 1;
+    }
 }
 
-void VoxelBlock::cutPoints(bcc::Lattice lattice, const EdgeMasks& edges, float* distance) {
-    const bool fromB = lattice == bcc::B;
-    mEdges.count = 0;
-    const auto flush = [&] {
-        distancesToCuts(mEdges, fromB ? ~std::uint32_t(0) : 0, distance, mIsa);
-        distance += mEdges.count;
+void VoxelBlock::cutPoints(bcc::Lattice lattice, const std::vector<ShortEdge>& edges, float* distance) {
+    for (std::size_t i = 0; i < edges.size();) {
         mEdges.count = 0;
-    };
-    forEachDirection([&](auto d) {
-        edges[d].forEach([&](int vertex) {
-            const int n = PaddedMask::bit(vertex);
-            if (fromB) {
+        for (; i < edges.size() && !mEdges.full(); ++i) {
+            const int n = edges[i].vertex, direction = edges[i].direction;
+            if (lattice == bcc::A) {
+                mEdges.near[mEdges.count] = mPhi[n];
+                addEdge(n, direction);
+            } else {
                 // From its L_A end the edge runs the opposite way. The centre's value is summed in the order of
                 // signs(): else its sign could differ.
-                constexpr bcc::Step step = bcc::shortEdge(bcc::B, d);
+                const bcc::Step step = bcc::shortEdge(bcc::B, direction);
                 mEdges.near[mEdges.count] = centre(n);
-                addEdge<bcc::opposite(d)>(n + PaddedMask::step(step.x, step.y, step.z));
-            } else {
-                mEdges.near[mEdges.count] = mPhi[n];
-                addEdge<d>(n);
+                addEdge(n + PaddedMask::step(step.x, step.y, step.z), bcc::opposite(direction));
             }
-            if (mEdges.full()) flush();
-        });
-    });
-    flush();
+        }
+        distancesToCuts(mEdges, lattice == bcc::B, distance, mIsa);
+        distance += mEdges.count;
+    }
 }
 
 double VoxelBlock::centre(int n) const {

@@ -24,13 +24,12 @@ public:
     void load(const std::array<const T*, 27>& leaves, const Level& level);
 
     void signs(PaddedMask& a, PaddedMask& b) const;
-    EdgeRows nearerToA(const EdgeRows& cut);
-    void cutPoints(bcc::Lattice lattice, const EdgeMasks& edges, float* distance);
+    void nearerToA(const std::vector<ShortEdge>& edges, std::uint8_t* nearer);
+    void cutPoints(bcc::Lattice lattice, const std::vector<ShortEdge>& edges, float* distance);
 
 private:
-    /// Add the edge from voxel @a n in a direction to mEdges.
-    template <int kDirection>
-    void addEdge(int n);
+    /// Add the edge from voxel @a n in @a direction to mEdges.
+    void addEdge(int n, int direction);
 
     /// The field at the centre of the cube whose lowest voxel is @a n: at that vertex of L_B.
     double centre(int n) const;
