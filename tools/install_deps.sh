@@ -2,7 +2,7 @@
 # Installs what vdbtet is built from, on Debian 12, Ubuntu 24.04 and later. Packages that are there already are left
 # alone, and when none is missing neither the network nor root is needed.
 #
-# usage: tools/install_deps.sh [--tests] [--ci]
+# usage: tools/install_deps.sh [--tests] [--bench] [--ci]
 set -eu
 
 packages="g++ cmake ninja-build libopenvdb-dev libtbb-dev libblosc-dev zlib1g-dev libboost-iostreams-dev
@@ -10,8 +10,9 @@ packages="g++ cmake ninja-build libopenvdb-dev libtbb-dev libblosc-dev zlib1g-de
 for option in "$@"; do
     case $option in
     --tests) packages="$packages catch2 python3" ;;
+    --bench) packages="$packages libbenchmark-dev python3" ;;
     --ci) packages="$packages clang-format-14 python3-vtk9" ;;
-    *) echo "usage: tools/install_deps.sh [--tests] [--ci]" >&2 && exit 2 ;;
+    *) echo "usage: tools/install_deps.sh [--tests] [--bench] [--ci]" >&2 && exit 2 ;;
     esac
 done
 

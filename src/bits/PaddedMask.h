@@ -55,6 +55,19 @@ public:
         }
         return result;
     }
+    void intersect(const PaddedMask& other) {
+        for (int r = 0; r < kRows; ++r) rows[r] &= other.rows[r];
+    }
+
+    /// @return the mask whose bit n is bit n + @a step of this one, the step being one up along an axis; bits at
+    /// the far border are arbitrary.
+    PaddedMask movedDown(int step) const {
+        PaddedMask result;
+        const int skipped = step / kRowBits, shift = step % kRowBits;
+        for (int r = 0; r < kRows - skipped; ++r) result.rows[r] = std::uint16_t(rows[r + skipped] >> shift);
+        return result;
+    }
+
     /// @return the bits of the tile itself.
     TileMask core() const { return shifted(0, 0, 0); }
 

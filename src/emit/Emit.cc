@@ -3,6 +3,7 @@
 #include "emit/Emit.h"
 
 #include "emit/TileEmitter.h"
+#include "simd/Stream.h"
 
 #include <tbb/concurrent_queue.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -112,12 +113,15 @@ private:
             parcel->buffer = buffer(points, tets);
             memory = {parcel->buffer->points.data(), parcel->buffer->tets.data()};
         }
-        Output out{memory.points, memory.tets};
+        // Memory that is not aligned to a tet's half takes plain stores.
+        const bool aligned = reinterpret_cast<std::uintptr_t>(memory.tets) % 16 == 0;
+        Output out{memory.points, memory.tets, !parcel->buffer && aligned};
         TileEmitter& emitter = *mEmitters.local();
         for (Place at = unit.begin; at.span != unit.end.span || at.offset != unit.end.offset;) {
             out = emitter.emit(at.span, at.offset, out);
             if (++at.offset == mLayout.spans[at.span].count) at = {at.span + 1, 0};
         }
+        if (out.streaming) drainStores();
         chunk.points = {memory.points, points};
         chunk.tets = {memory.tets, tets};
         return parcel;

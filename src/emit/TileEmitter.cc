@@ -2,7 +2,7 @@
 /// Ids by rank, whole octahedra at a time.
 #include "emit/TileEmitter.h"
 
-#include "simd/Isa.h"
+#include "simd/Stream.h"
 
 namespace vdbtet {
 
@@ -13,56 +13,96 @@ namespace {
 
 const TileMask kNone = TileMask::filled(false), kAll = TileMask::filled(true);
 
-/// Write the four tets of slice S. @a ids are those of the local vertices, from the spine's lower end on.
-template <int kAxis>
-VDBTET_KERNEL inline void writeOctahedron(const std::int64_t* ids, Tet* tets) {
-    constexpr LocalOctahedron o = localOctahedron(bcc::A, kAxis, 0);
-    const std::int64_t v[6] = {ids[o[0]], ids[o[1]], ids[o[2]], ids[o[3]], ids[o[4]], ids[o[5]]};
-    for (int k = 0; k < 4; ++k) {
-        for (int i = 0; i < 4; ++i) tets[k][i] = v[bcc::kSliceTets[bcc::S][k][i]];
+struct Cached {
+    static void store(Tet& tet, std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t d) {
+        tet = {a, b, c, d};
     }
-}
+};
+struct Streaming {
+    static void store(Tet& tet, std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t d) {
+        streamPair(tet.data(), a, b);
+        streamPair(tet.data() + 2, c, d);
+    }
+};
 
-/// The tets of all L_A spines of a tile along an axis, all of whose vertices are inside.
-template <int kAxis>
-Tet* writeAll(const std::int64_t* ids, Tet* tets) {
-    for (int x = 0; x < TileMask::kDim; ++x) {
-        for (int y = 0; y < TileMask::kDim; ++y) {
-            const std::int64_t* row = ids + localIndex(bcc::A, x, y, 0);
-            for (int z = 0; z < TileMask::kDim; ++z, tets += 4) writeOctahedron<kAxis>(row + z, tets);
-        }
-    }
-    return tets;
-}
+/// Writes the tets of a tile, whose @a ids are by local number.
+template <typename Stores>
+class TetWriter {
+public:
+    TetWriter(const std::int64_t* ids, Tet* tets) : mIds(ids), mNext(tets) {}
 
-/// The tets of the L_A spines along an axis that a surface tile has in the mesh.
-template <int kAxis>
-Tet* writeSome(const TileTets& found, const std::int64_t* ids, Tet* tets) {
-    const TileMask& flipped = found.flippedSpines(kAxis);
-    TileMask some = flipped, whole = TileMask::filled(true);
-    for (int number = 0; number < 4; ++number) {
-        some |= found.latticeTets(kAxis, number);
-        whole &= found.latticeTets(kAxis, number);
+    Tet* next() const { return mNext; }
+
+    void write(const LocalTet& tet) {
+        Stores::store(*mNext++, mIds[tet.vertex(0)], mIds[tet.vertex(1)], mIds[tet.vertex(2)], mIds[tet.vertex(3)]);
     }
-    constexpr LocalOctahedron o = localOctahedron(bcc::A, kAxis, 0);
-    some.forEach([&](int n) {
-        const std::int64_t* at = ids + localIndex(bcc::A, n);
-        if (whole.test(n)) {
-            writeOctahedron<kAxis>(at, tets);
-            tets += 4;
-        } else if (flipped.test(n)) {
-            found.forEachTetOf(kAxis, n, [&](const LocalTet& tet) {
-                *tets++ = {ids[tet.vertex(0)], ids[tet.vertex(1)], ids[tet.vertex(2)], ids[tet.vertex(3)]};
-            });
-        } else {
-            for (int number = 0; number < 4; ++number) {
-                if (!found.latticeTets(kAxis, number).test(n)) continue;
-                const auto& tet = bcc::kSliceTets[bcc::S][number];
-                *tets++ = {at[o[tet[0]]], at[o[tet[1]]], at[o[tet[2]]], at[o[tet[3]]]};
+
+    /// The tets of all L_A spines along an axis, all of whose vertices are inside.
+    template <int kAxis>
+    void writeAll() {
+        for (int x = 0; x < TileMask::kDim; ++x) {
+            for (int y = 0; y < TileMask::kDim; ++y) {
+                for (int z = 0; z < TileMask::kDim; ++z) writeOctahedron<kAxis>(localIndex(bcc::A, x, y, z));
             }
         }
-    });
-    return tets;
+    }
+
+    /// The tets of the L_A spines along an axis that a surface tile has in the mesh.
+    template <int kAxis>
+    void writeFound(const TileTets& found) {
+        const TileMask& flipped = found.flippedSpines(kAxis);
+        TileMask some = flipped, whole = TileMask::filled(true);
+        for (int number = 0; number < 4; ++number) {
+            some |= found.latticeTets(kAxis, number);
+            whole &= found.latticeTets(kAxis, number);
+        }
+        some.forEach([&](int n) {
+            const int lower = localIndex(bcc::A, n);
+            if (whole.test(n)) {
+                writeOctahedron<kAxis>(lower);
+            } else if (flipped.test(n)) {
+                found.forEachTetOf(kAxis, n, [&](const LocalTet& tet) { write(tet); });
+            } else {
+                const LocalOctahedron octahedron = localOctahedron(bcc::A, kAxis, lower);
+                for (int number = 0; number < 4; ++number) {
+                    if (found.latticeTets(kAxis, number).test(n)) write({octahedron, bcc::A, bcc::S, number});
+                }
+            }
+        });
+    }
+
+private:
+    /// The four tets of slice S.
+    template <int kAxis>
+    void writeOctahedron(int lower) {
+        constexpr LocalOctahedron o = localOctahedron(bcc::A, kAxis, 0);
+        const std::int64_t* ids = mIds + lower;
+        const std::int64_t v[6] = {ids[o[0]], ids[o[1]], ids[o[2]], ids[o[3]], ids[o[4]], ids[o[5]]};
+        for (const auto& tet : bcc::kSliceTets[bcc::S])
+            Stores::store(*mNext++, v[tet[0]], v[tet[1]], v[tet[2]], v[tet[3]]);
+    }
+
+    const std::int64_t* mIds;
+    Tet* mNext;
+};
+
+template <typename Stores>
+Tet* writeSurfaceTile(const TileTets& found, const std::int64_t* ids, Tet* tets) {
+    TetWriter<Stores> writer(ids, tets);
+    writer.template writeFound<0>(found);
+    writer.template writeFound<1>(found);
+    writer.template writeFound<2>(found);
+    found.forEachTetOfB([&](const LocalTet& tet) { writer.write(tet); });
+    return writer.next();
+}
+
+template <typename Stores>
+Tet* writeInteriorTile(const std::int64_t* ids, Tet* tets) {
+    TetWriter<Stores> writer(ids, tets);
+    writer.template writeAll<0>();
+    writer.template writeAll<1>();
+    writer.template writeAll<2>();
+    return writer.next();
 }
 
 } // namespace
@@ -88,7 +128,7 @@ void TileEmitter::emitSurfaceTile(const Coord& tile, TileRef surface, Output& ou
         Vec3d* first = out.points;
         for (int row = 0; row < 64; ++row) {
             const unsigned bits = unsigned(used.words[row >> 3] >> (8 * (row & 7)) & 0xff);
-            emitRow(tile, lattice, row, bits, out.points);
+            emitRow(tile, lattice, row, bits, false, out.points);
             out.points += countBits(bits);
         }
         manifold.forEach([&](int n) {
@@ -99,25 +139,21 @@ void TileEmitter::emitSurfaceTile(const Coord& tile, TileRef surface, Output& ou
     }
     mStates.load(mVertices, surface);
     mTets.load(surface, mStates);
-    out.tets = writeSome<0>(mTets, mIds.data(), out.tets);
-    out.tets = writeSome<1>(mTets, mIds.data(), out.tets);
-    out.tets = writeSome<2>(mTets, mIds.data(), out.tets);
-    mTets.forEachTetOfB([&](const LocalTet& tet) {
-        *out.tets++ = {mIds[tet.vertex(0)], mIds[tet.vertex(1)], mIds[tet.vertex(2)], mIds[tet.vertex(3)]};
-    });
+    out.tets = out.streaming ? writeSurfaceTile<Streaming>(mTets, mIds.data(), out.tets)
+                             : writeSurfaceTile<Cached>(mTets, mIds.data(), out.tets);
 }
 
 void TileEmitter::emitInteriorTile(const Coord& tile, Output& out) {
     for (int lattice = 0; lattice < 2; ++lattice) {
-        for (int row = 0; row < 64; ++row, out.points += 8) emitRow(tile, lattice, row, 0xff, out.points);
+        for (int row = 0; row < 64; ++row, out.points += 8) emitRow(tile, lattice, row, 0xff, out.streaming, out.points);
     }
-    out.tets = writeAll<0>(mIds.data(), out.tets);
-    out.tets = writeAll<1>(mIds.data(), out.tets);
-    out.tets = writeAll<2>(mIds.data(), out.tets);
+    out.tets = out.streaming ? writeInteriorTile<Streaming>(mIds.data(), out.tets)
+                             : writeInteriorTile<Cached>(mIds.data(), out.tets);
 }
 
 /// The places in the lattice of the vertices @a used of a row. The sums are those of Frame::world(), in its order.
-void TileEmitter::emitRow(const Coord& tile, int lattice, int row, unsigned used, Vec3d* points) const {
+void TileEmitter::emitRow(const Coord& tile, int lattice, int row, unsigned used, bool streaming,
+                          Vec3d* points) const {
     if (used == 0) return;
     const double shift = 0.5 * lattice, x = 8.0 * tile.x() + ((row >> 3) + shift),
                  y = 8.0 * tile.y() + ((row & 7) + shift), z = 8.0 * tile.z();
@@ -130,7 +166,16 @@ void TileEmitter::emitRow(const Coord& tile, int lattice, int row, unsigned used
     for (int k = 0; k < 8; ++k) {
         for (int i = 0; i < 3; ++i) places[k][i] = start[i] + step[i] * (z + (k + shift)) + mFrame.origin[i];
     }
-    for (; used != 0; used &= used - 1) *points++ = Vec3d(places[lowestBit(used)]);
+    for (; used != 0; used &= used - 1, ++points) {
+        const auto& place = places[lowestBit(used)];
+        for (int i = 0; i < 3; ++i) {
+            if (streaming) {
+                stream(points->asPointer() + i, place[i]);
+            } else {
+                (*points)[i] = place[i];
+            }
+        }
+    }
 }
 
 TileEmitter::Ids TileEmitter::idsOf(std::int64_t span, int tileZ) const {

@@ -14,6 +14,7 @@ namespace vdbtet {
 struct Output {
     openvdb::Vec3d* points;
     Tet* tets;
+    bool streaming; ///< past the caches, which the mesh would only flush; see drainStores()
 };
 
 /// One for each thread.
@@ -35,7 +36,8 @@ private:
 
     void emitSurfaceTile(const openvdb::Coord& tile, TileRef surface, Output& out);
     void emitInteriorTile(const openvdb::Coord& tile, Output& out);
-    void emitRow(const openvdb::Coord& tile, int lattice, int row, unsigned used, openvdb::Vec3d* points) const;
+    void emitRow(const openvdb::Coord& tile, int lattice, int row, unsigned used, bool streaming,
+                 openvdb::Vec3d* points) const;
 
     /// @param span  of the layout, or -1 outside
     Ids idsOf(std::int64_t span, int tileZ) const;

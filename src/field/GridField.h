@@ -160,11 +160,7 @@ public:
         : mGrid(grid), mFrame(frame), mLevel(level), mOnVoxels(frame.toIndex == openvdb::Mat3d::identity()) {}
 
     std::vector<openvdb::Coord> surfaceTiles(std::int64_t maxTiles, Interrupt& interrupt) const override {
-        // A cut edge lies in a cube of mixed signs. On voxels, then, the cube's box has both ends of the edge, and
-        // the octahedra of the tile reach half a cell beyond its vertices, and one above. Else the edge
-        // need only touch the box, which may be half a cell from its ends.
-        const double clearance = mOnVoxels ? 0.5 : 1.5;
-        return tilesNearSurface(mGrid.tree(), mFrame, mLevel, clearance, maxTiles, interrupt);
+        return tilesNearSurface(mGrid.tree(), mFrame, mLevel, maxTiles, interrupt);
     }
 
     std::unique_ptr<Sampler> sampler() const override {

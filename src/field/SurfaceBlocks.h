@@ -6,15 +6,16 @@
 /// outside, in one of finitely many constant tiles.
 #pragma once
 
+#include "Parallel.h"
 #include "bits/PaddedMask.h"
 #include "field/Level.h"
+#include "simd/Isa.h"
 
 #include <vdbtet/Errors.h>
 
 #include <openvdb/Types.h>
+#include <openvdb/tree/LeafManager.h>
 #include <openvdb/tree/ValueAccessor.h>
-
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <string>
@@ -22,16 +23,49 @@
 
 namespace vdbtet {
 
-using Coords = std::vector<openvdb::Coord>;
-
-inline void sortUnique(Coords& coords) {
-    tbb::parallel_sort(coords.begin(), coords.end());
-    coords.erase(std::unique(coords.begin(), coords.end()), coords.end());
-}
-
 [[noreturn]] inline void throwTooManyTiles(std::int64_t maxTiles) {
     throw TooLarge("the surface crosses more than " + std::to_string(maxTiles) +
                    " lattice tiles of 8 x 8 x 8 cells; use a coarser spacing, or raise the limit");
+}
+
+/// A box of voxels at a leaf's lower corner.
+struct LeafPart {
+    int x = 8, y = 8, z = 8; ///< its size: 8 or 1
+
+    /// The part that neighbours the leaf in the direction of a negative step, for each step other than 0.
+    static LeafPart facing(int dx, int dy, int dz) { return {dx ? 1 : 8, dy ? 1 : 8, dz ? 1 : 8}; }
+
+    TileMask mask() const {
+        TileMask mask;
+        const std::uint64_t row = z == 8 ? 0xff : 1, slab = y == 8 ? row * 0x0101010101010101 : row;
+        for (int i = 0; i < x; ++i) mask.words[i] = slab;
+        return mask;
+    }
+};
+
+/// @return those of a leaf's voxels in @a part that are inside.
+template <typename T>
+TileMask insideVoxels(const T* data, const Level& level, const LeafPart& part) {
+    TileMask mask;
+    const double isovalue = level.isovalue, sign = level.insideIsBelow ? -1.0 : 1.0;
+    const auto inside = [&](double value) VDBTET_KERNEL { return sign * (value - isovalue) >= 0.0 ? 1u : 0u; };
+    if (part.z == 8) {
+        runOn(bestIsa(), [&]() VDBTET_KERNEL {
+            for (int x = 0; x < part.x; ++x) {
+                for (int y = 0; y < part.y; ++y) {
+                    std::uint32_t row = 0;
+                    for (int z = 0; z < 8; ++z) row |= inside(double(data[x << 6 | y << 3 | z])) << z;
+                    mask.words[x] |= std::uint64_t(row) << (8 * y);
+                }
+            }
+        });
+    } else {
+        for (int x = 0; x < part.x; ++x) {
+            for (int y = 0; y < part.y; ++y)
+                mask.words[x] |= std::uint64_t(inside(double(data[x << 6 | y << 3]))) << (8 * y);
+        }
+    }
+    return mask;
 }
 
 /// The voxel blocks of a tree by sign.
@@ -45,38 +79,36 @@ public:
 
     bool isLeaf(const openvdb::Coord& block) { return mAccessor.probeConstLeaf(origin(block)) != nullptr; }
 
-    TileMask inside(const openvdb::Coord& block) {
-        const auto* leaf = mAccessor.probeConstLeaf(origin(block));
-        if (!leaf) return TileMask::filled(mLevel.phi(mAccessor.getValue(origin(block))) >= 0.0);
-        TileMask mask;
-        const auto* data = leaf->buffer().data();
-        for (int w = 0; w < 8; ++w) {
-            for (int n = 0; n < 64; ++n) {
-                mask.words[w] |= std::uint64_t(mLevel.phi(data[w << 6 | n]) >= 0.0) << n;
-            }
-        }
-        return mask;
+    /// @return those voxels of a block in @a part that are inside.
+    TileMask inside(const openvdb::Coord& block, const LeafPart& part) {
+        if (const auto* leaf = mAccessor.probeConstLeaf(origin(block)))
+            return insideVoxels(leaf->buffer().data(), mLevel, part);
+        return constantInside(block) ? part.mask() : TileMask();
+    }
+    /// The same of a block without a leaf, whose voxels are all alike.
+    bool constantInside(const openvdb::Coord& block) {
+        return mLevel.phi(mAccessor.getValue(origin(block))) >= 0.0;
     }
 
     /// @return the cubes, by their lower corner in @a block, whose corners differ in sign.
     TileMask mixedCubes(const openvdb::Coord& block) {
         std::array<TileMask, 27> masks;
         MasksAround around;
-        around.masks.fill(&masks[neighbourSlot(0, 0, 0)]);
+        around.masks.fill(&masks[neighbourSlot(-1, -1, -1)]);
         for (int corner = 0; corner < 8; ++corner) {
             const int dx = corner >> 2, dy = corner >> 1 & 1, dz = corner & 1;
             const int slot = neighbourSlot(dx, dy, dz);
-            masks[slot] = inside(block.offsetBy(dx, dy, dz));
+            masks[slot] = inside(block.offsetBy(dx, dy, dz), LeafPart::facing(dx, dy, dz));
             around.masks[slot] = &masks[slot];
         }
-        const PaddedMask padded(around);
-        TileMask any = TileMask::filled(false), all = TileMask::filled(true);
-        for (int corner = 0; corner < 8; ++corner) {
-            const TileMask shifted = padded.shifted(corner >> 2, corner >> 1 & 1, corner & 1);
-            any |= shifted;
-            all &= shifted;
+        // Neighbours along z, then y, then x.
+        PaddedMask any(around), all = any;
+        for (int step : {PaddedMask::step(0, 0, 1), PaddedMask::step(0, 1, 0), PaddedMask::step(1, 0, 0)}) {
+            any.add(any.movedDown(step));
+            all.intersect(all.movedDown(step));
         }
-        return any & ~all;
+        any.remove(all);
+        return any.core();
     }
 
 private:
@@ -87,6 +119,8 @@ private:
     openvdb::tree::ValueAccessor<const TreeT> mAccessor;
     Level mLevel;
 };
+
+using Coords = std::vector<openvdb::Coord>;
 
 /// Collects the blocks on both sides of every face between a constant tile inside and a constant region
 /// outside.
@@ -186,29 +220,46 @@ private:
     std::int64_t mMaxTiles, mMaxBlocks;
 };
 
-/// @return the blocks, in ascending order, that may own a cube of mixed signs.
-template <typename TreeT>
-Coords surfaceBlocks(const TreeT& tree, const Level& level, std::int64_t maxTiles) {
-    Coords blocks;
-    BlockSigns<TreeT> signs(tree, level);
-    for (auto leaf = tree.cbeginLeaf(); leaf; ++leaf) {
-        const openvdb::Coord block = leaf->origin() >> 3;
-        blocks.push_back(block);
-        // A cube belongs to the block of its lower corner: those that reach into the leaf from constant
-        // regions below it count too.
-        for (int corner = 1; corner < 8; ++corner) {
-            const openvdb::Coord lower = block.offsetBy(-(corner >> 2), -(corner >> 1 & 1), -(corner & 1));
-            if (!signs.isLeaf(lower)) blocks.push_back(lower);
+/// @brief Call @a visit(block, mixed) for each block with cubes of mixed signs, some more than once, in any order.
+/// @param visitors  gives each thread its own
+template <typename TreeT, typename Visitors>
+void forEachSurfaceBlock(const TreeT& tree, const Level& level, std::int64_t maxTiles, Interrupt& interrupt,
+                         Visitors& visitors) {
+    const auto visit = [&](BlockSigns<TreeT>& signs, const openvdb::Coord& block) {
+        const TileMask mixed = signs.mixedCubes(block);
+        if (mixed.any()) visitors.local()(block, mixed);
+    };
+    const openvdb::tree::LeafManager<const TreeT> leaves(tree);
+    parallelRanges(std::int64_t(leaves.leafCount()), interrupt, [&](std::int64_t begin, std::int64_t end) {
+        BlockSigns<TreeT> signs(tree, level);
+        for (std::int64_t l = begin; l < end; ++l) {
+            const auto& leaf = leaves.leaf(std::size_t(l));
+            const openvdb::Coord block = leaf.origin() >> 3;
+            visit(signs, block);
+            // A cube belongs to the block of its lower corner: those that reach into the leaf from constant
+            // regions below it count too.
+            for (int corner = 1; corner < 8; ++corner) {
+                const int dx = corner >> 2, dy = corner >> 1 & 1, dz = corner & 1;
+                const openvdb::Coord lower = block.offsetBy(-dx, -dy, -dz);
+                if (signs.isLeaf(lower)) continue;
+                const LeafPart part = LeafPart::facing(dx, dy, dz);
+                const TileMask inside = insideVoxels(leaf.buffer().data(), level, part);
+                if (inside != (signs.constantInside(lower) ? part.mask() : TileMask())) visit(signs, lower);
+            }
         }
-    }
+    });
+
+    Coords blocks;
     ConstantFaces<TreeT> faces(tree, level, blocks, maxTiles);
     auto tile = tree.cbeginValueAll();
     tile.setMaxDepth(tile.getLeafDepth() - 1);
     for (; tile; ++tile) {
         if (level.phi(*tile) >= 0.0) faces.visit(tile.getBoundingBox());
     }
-    sortUnique(blocks);
-    return blocks;
+    parallelRanges(std::int64_t(blocks.size()), interrupt, [&](std::int64_t begin, std::int64_t end) {
+        BlockSigns<TreeT> signs(tree, level);
+        for (std::int64_t b = begin; b < end; ++b) visit(signs, blocks[b]);
+    });
 }
 
 } // namespace vdbtet

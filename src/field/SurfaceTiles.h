@@ -7,6 +7,7 @@
 #include "field/SurfaceBlocks.h"
 
 #include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_sort.h>
 
 #include <cmath>
 
@@ -23,7 +24,10 @@ public:
                                   double(box.max().y()) - box.min().y() + 1.0,
                                   double(box.max().z()) - box.min().z() + 1.0);
         if (size.x() * size.y() * size.z() > double(mLimit)) throwTooManyTiles(mLimit);
-        for (auto it = box.begin(); it; ++it) mTiles.push_back(*it);
+        for (auto it = box.begin(); it; ++it) add(*it);
+    }
+    void add(const openvdb::Coord& tile) {
+        mTiles.push_back(tile);
         if (mTiles.size() > mCompactAt) compact();
     }
 
@@ -32,22 +36,48 @@ public:
         std::sort(mTiles.begin(), mTiles.end());
         mTiles.erase(std::unique(mTiles.begin(), mTiles.end()), mTiles.end());
         if (std::int64_t(mTiles.size()) > mLimit) throwTooManyTiles(mLimit);
-        mCompactAt = 2 * mTiles.size() + 4096;
+        mCompactAt = 2 * mTiles.size() + kRoom;
         return mTiles;
     }
 
 private:
+    static constexpr size_t kRoom = 1 << 16;
+
     std::int64_t mLimit;
     Coords mTiles;
-    size_t mCompactAt = 4096;
+    size_t mCompactAt = kRoom;
 };
 
-/// Finds the lattice tiles that come within some clearance of the mixed cubes of a block.
+/// Collects the lattice tiles that matter to the mixed cubes of blocks; see Field::surfaceTiles(). One for each
+/// thread.
 class NearTiles {
 public:
-    NearTiles(const Frame& frame, double clearance) : mFrame(frame), mReach(clearance + 1e-3) {}
+    NearTiles(const Frame& frame, std::int64_t limit)
+        : mFrame(frame), mOnVoxels(frame.toIndex == openvdb::Mat3d::identity()), mTiles(limit) {}
 
-    void append(const openvdb::Coord& block, const TileMask& mixed, TileSet& tiles) {
+    void operator()(const openvdb::Coord& block, const TileMask& mixed) {
+        mOnVoxels ? addOnVoxels(block, mixed) : addAnywhere(block, mixed);
+    }
+
+    const Coords& tiles() { return mTiles.compact(); }
+
+private:
+    /// The block is a tile, and a cut edge has both its ends in the box of a mixed cube. So a cube matters to the
+    /// neighbours whose border its box touches: octahedra reach half a cell below the tile's vertices and one
+    /// above.
+    void addOnVoxels(const openvdb::Coord& block, const TileMask& mixed) {
+        std::uint64_t slabs[3] = {mixed.words[0], 0, mixed.words[7]}; // by the step to the neighbour
+        for (std::uint64_t word : mixed.words) slabs[1] |= word;
+        constexpr std::uint64_t kRows[3] = {0xff, ~std::uint64_t(0), std::uint64_t(0xff) << 56};
+        constexpr std::uint64_t kBits[3] = {0x0101010101010101, ~std::uint64_t(0), 0x8080808080808080};
+        for (int slot = 0; slot < 27; ++slot) {
+            const int x = slot / 9, y = slot / 3 % 3, z = slot % 3;
+            if (slabs[x] & kRows[y] & kBits[z]) mTiles.add(block.offsetBy(x - 1, y - 1, z - 1));
+        }
+    }
+
+    /// A cut edge may touch the box with its ends half a cell away from it.
+    void addAnywhere(const openvdb::Coord& block, const TileMask& mixed) {
         openvdb::CoordBBox last;
         for (int x = 0; x < 8; ++x) {
             for (int y = 0; y < 8; ++y) {
@@ -58,13 +88,12 @@ public:
                 const int begin = lowestBit(row), end = 32 - __builtin_clz(row);
                 const openvdb::Vec3d low(8.0 * block.x() + x, 8.0 * block.y() + y, 8.0 * block.z() + begin);
                 const openvdb::CoordBBox box = tilesNear(low, openvdb::Vec3d(1.0, 1.0, end - begin));
-                if (box != last) tiles.add(box);
+                if (box != last) mTiles.add(box);
                 last = box;
             }
         }
     }
 
-private:
     /// @return the tiles near a box of index space.
     openvdb::CoordBBox tilesNear(const openvdb::Vec3d& low, const openvdb::Vec3d& size) const {
         const openvdb::Vec3d centre = mFrame.fromIndex * (low + 0.5 * size);
@@ -73,8 +102,8 @@ private:
             double half = 0.0;
             for (int j = 0; j < 3; ++j) half += 0.5 * size[j] * std::abs(mFrame.fromIndex(axis, j));
             // The vertices of tile t reach from 8t to 8t + 7.5.
-            const double first = std::ceil((centre[axis] - half - mReach - 7.5) / 8.0);
-            const double last = std::floor((centre[axis] + half + mReach) / 8.0);
+            const double first = std::ceil((centre[axis] - half - kReach - 7.5) / 8.0);
+            const double last = std::floor((centre[axis] + half + kReach) / 8.0);
             // Local coordinates and neighbours of tiles must stay within 32 bits.
             constexpr double kFarthest = 2.0e9;
             if (!(first > -kFarthest && last < kFarthest)) {
@@ -87,31 +116,23 @@ private:
         return openvdb::CoordBBox(min, max);
     }
 
+    static constexpr double kReach = 1.5 + 1e-3; ///< lattice units: half a cell, and an octahedron's
+
     Frame mFrame;
-    double mReach;
+    bool mOnVoxels;
+    TileSet mTiles;
 };
 
 /// Field::surfaceTiles() of a VDB tree.
 template <typename TreeT>
-Coords tilesNearSurface(const TreeT& tree, const Frame& frame, const Level& level, double clearance,
-                        std::int64_t maxTiles, Interrupt& interrupt) {
-    const Coords blocks = surfaceBlocks(tree, level, maxTiles);
-    tbb::enumerable_thread_specific<TileSet> parts(maxTiles);
-    parallelRanges(std::int64_t(blocks.size()), interrupt, [&](std::int64_t begin, std::int64_t end) {
-        BlockSigns<TreeT> signs(tree, level);
-        NearTiles nearTiles(frame, clearance);
-        TileSet& tiles = parts.local();
-        for (std::int64_t b = begin; b < end; ++b) {
-            const TileMask mixed = signs.mixedCubes(blocks[b]);
-            if (mixed.any()) nearTiles.append(blocks[b], mixed, tiles);
-        }
-    });
+Coords tilesNearSurface(const TreeT& tree, const Frame& frame, const Level& level, std::int64_t maxTiles,
+                        Interrupt& interrupt) {
+    tbb::enumerable_thread_specific<NearTiles> parts(frame, maxTiles);
+    forEachSurfaceBlock(tree, level, maxTiles, interrupt, parts);
     Coords tiles;
-    for (TileSet& part : parts) {
-        const Coords& more = part.compact();
-        tiles.insert(tiles.end(), more.begin(), more.end());
-    }
-    sortUnique(tiles);
+    for (NearTiles& part : parts) tiles.insert(tiles.end(), part.tiles().begin(), part.tiles().end());
+    tbb::parallel_sort(tiles.begin(), tiles.end());
+    tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
     if (std::int64_t(tiles.size()) > maxTiles) throwTooManyTiles(maxTiles);
     return tiles;
 }

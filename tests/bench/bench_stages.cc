@@ -1,0 +1,172 @@
+/// @file bench_stages.cc
+/// Times every stage of volumeToTets() and, in turns with it, what it is compared with: OpenVDB's
+/// volumeToMesh() on the same grid, and copying as many bytes as the mesh has.
+///
+/// usage: vdbtet_bench [--benchmark_OPTION=...] GRID.vdb...
+///        vdbtet_bench --write N OUT.vdb   makes the fixture of resolution N
+///
+/// The counters of a repetition are seconds, by stage and by comparison. tests/bench/benchmark.py makes
+/// tables.
+#include "bench/fixtures.h"
+
+#include <vdbtet/GridFile.h>
+#include <vdbtet/TetMesh.h>
+#include <vdbtet/VolumeToTets.h>
+
+#include <openvdb/tools/VolumeToMesh.h>
+
+#include <benchmark/benchmark.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+constexpr int kThreads[] = {1, 2};
+
+openvdb::FloatGrid::Ptr read(const std::string& path) {
+    const auto grid = openvdb::gridPtrCast<openvdb::FloatGrid>(vdbtet::readGrid(path));
+    if (!grid) throw std::runtime_error(path + ": the benchmark wants a float grid");
+    return grid;
+}
+
+/// Takes every chunk and keeps none: for the stages of meshes of any size.
+struct NullSink final : vdbtet::MeshSink {
+    bool begin(const vdbtet::MeshTotals&) override { return true; }
+    void chunk(const vdbtet::MeshChunk&) override {}
+    void end() override {}
+    bool concurrent() const override { return true; }
+};
+
+template <typename WorkF>
+double secondsOn(int threads, const WorkF& work) {
+    tbb::task_arena arena(threads);
+    const auto start = std::chrono::steady_clock::now();
+    arena.execute(work);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// A grid, and memory for its mesh that is kept from round to round.
+class Rounds {
+public:
+    explicit Rounds(const std::string& path);
+
+    /// Everything once.
+    /// @return seconds by name, and sizes
+    benchmark::UserCounters run(int threads);
+
+private:
+    void copyMesh(int threads);
+
+    openvdb::FloatGrid::Ptr mGrid;
+    vdbtet::TetMesh mMesh;
+    std::unique_ptr<char[]> mCopy;
+};
+
+Rounds::Rounds(const std::string& path) : mGrid(read(path)) {
+    run(kThreads[std::size(kThreads) - 1]); // gets the memory and starts the threads
+}
+
+benchmark::UserCounters Rounds::run(int threads) {
+    benchmark::UserCounters counters;
+    NullSink sink;
+    vdbtet::Report report;
+    counters["volumeToTets"] = secondsOn(threads, [&] { report = vdbtet::volumeToTets(*mGrid, sink); });
+    for (const auto& stage : report.stages) counters[stage.name] = stage.seconds;
+    counters["volumeToMesh"] = secondsOn(threads, [&] {
+        std::vector<openvdb::Vec3s> points;
+        std::vector<openvdb::Vec4I> quads;
+        openvdb::tools::volumeToMesh(*mGrid, points, quads, report.isovalue);
+    });
+
+    const auto bytes =
+        std::size_t(report.points) * sizeof(openvdb::Vec3d) + std::size_t(report.tets) * sizeof(vdbtet::Tet);
+    // The mesh and its copy must fit, and leave room.
+    if (bytes < std::size_t(sysconf(_SC_PHYS_PAGES)) * std::size_t(sysconf(_SC_PAGESIZE)) / 3) {
+        if (!mCopy) mCopy.reset(new char[bytes]);
+        counters["wholeMesh"] = secondsOn(threads, [&] { vdbtet::volumeToTets(*mGrid, mMesh); });
+        counters["memcpy"] = secondsOn(threads, [&] { copyMesh(threads); });
+        counters["meshBytes"] = double(bytes);
+    }
+    counters["tets"] = double(report.tets);
+    counters["gridBytes"] = double(mGrid->memUsage());
+    return counters;
+}
+
+/// One piece a thread: memcpy is fastest on long ones.
+void Rounds::copyMesh(int threads) {
+    const auto copyPiece = [threads](char* to, const void* from, std::size_t bytes, int piece) {
+        const std::size_t begin = bytes * piece / threads, end = bytes * (piece + 1) / threads;
+        std::memcpy(to + begin, static_cast<const char*>(from) + begin, end - begin);
+    };
+    const std::size_t pointBytes = mMesh.points.size() * sizeof(openvdb::Vec3d);
+    tbb::parallel_for(0, threads, [&](int piece) {
+        copyPiece(mCopy.get(), mMesh.points.data(), pointBytes, piece);
+        copyPiece(mCopy.get() + pointBytes, mMesh.tets.data(), mMesh.tets.size() * sizeof(vdbtet::Tet),
+                  piece);
+    });
+    benchmark::ClobberMemory();
+}
+
+/// @return those of the grid at hand; another grid's are given up, as their memory is needed
+Rounds& roundsOf(const std::string& path) {
+    static std::string current;
+    static std::unique_ptr<Rounds> rounds;
+    if (path != current) {
+        rounds.reset();
+        rounds = std::make_unique<Rounds>(path);
+        current = path;
+    }
+    return *rounds;
+}
+
+void repetition(benchmark::State& state, const std::string& path, int threads) {
+    Rounds& rounds = roundsOf(path);
+    while (state.KeepRunning()) {
+        state.counters = rounds.run(threads);
+        state.SetIterationTime(state.counters["volumeToTets"]);
+    }
+}
+
+int runBenchmarks(int argc, char** argv) {
+    benchmark::Initialize(&argc, argv); // takes its own options out
+    if (argc < 2) throw std::runtime_error("which grids? tools/bench.sh makes some");
+    for (int i = 1; i < argc; ++i) {
+        const std::string path = argv[i];
+        const std::string name = std::filesystem::path(path).stem();
+        for (const int threads : kThreads) {
+            benchmark::RegisterBenchmark((name + "/" + std::to_string(threads)).c_str(), repetition, path,
+                                         threads)
+                ->Iterations(1)
+                ->UseManualTime()
+                ->Unit(benchmark::kSecond);
+        }
+    }
+    return benchmark::RunSpecifiedBenchmarks() > 0 ? 0 : 1;
+}
+
+} // namespace
+
+int main(int argc, char** argv) try {
+    openvdb::initialize();
+    if (argc == 4 && std::strcmp(argv[1], "--write") == 0) {
+        openvdb::io::File(argv[3]).write({vdbtet::bench::bumpyTorus(std::atoi(argv[2]))});
+        return 0;
+    }
+    return runBenchmarks(argc, argv);
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "vdbtet_bench: %s\n", error.what());
+    return 1;
+}

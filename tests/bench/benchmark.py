@@ -1,0 +1,254 @@
+"""Runs vdbtet_bench and vdb_tet on fixtures of growing size, each next to its floor, and prints tables in Markdown.
+
+tools/bench.sh builds what this runs. Every figure is a median; a ratio is the median of the ratios of single
+repetitions, whose two sides were measured one right after the other.
+"""
+
+import argparse
+import json
+import math
+import os
+import pathlib
+import platform
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+THREADS = (1, 2)
+MOST = THREADS[-1]
+# Larger meshes are not written to disk.
+MAX_FILE_BYTES = 4e9
+
+
+class Fixture:
+    """A grid file, and what was measured on it."""
+
+    def __init__(self, path, resolution=None):
+        self.path = pathlib.Path(path)
+        self.name = self.path.stem
+        self.resolution = resolution  # None for a shape that is there at one size only
+        self.rounds = {}  # by threads: a dictionary of seconds for each repetition
+        self.report = None  # of a dry run
+        self.peak = self.coarse_peak = None  # bytes
+        self.processes = []  # (vdb_tet, read, cp) seconds for each repetition
+
+    def stages(self):
+        """The stages of the library, in the order of work."""
+        return [stage["name"] for stage in self.report["stages"] if stage["name"] != "read"]
+
+    def band(self):
+        """The stages from the signs to the flips, which work on surface tiles only."""
+        stages = self.stages()
+        return stages[stages.index("tiles") + 1 : stages.index("flips") + 1]
+
+    def seconds(self, names, threads=MOST):
+        """The median of a sum."""
+        return statistics.median(sum(r[name] for name in names) for r in self.rounds[threads])
+
+    def ratio(self, names, floor):
+        rounds = self.rounds[MOST]
+        if floor not in rounds[0]:
+            return None
+        return statistics.median(sum(r[name] for name in names) / r[floor] for r in rounds)
+
+    def process_ratio(self):
+        return statistics.median(t / (r + c) for t, r, c in self.processes) if self.processes else None
+
+    def memory_ratio(self):
+        """Peak memory beyond the grid's, as a share of 300 bytes a surface vertex + 200 MB."""
+        vertices = self.report["boundaryTriangles"] / 2  # Euler: a closed surface has twice as many triangles
+        return (self.peak - self.rounds[MOST][0]["gridBytes"]) / (300 * vertices + 200e6)
+
+
+def progress(text):
+    print(text, file=sys.stderr, flush=True)
+
+
+def run(*command):
+    """Run a command; return its wall time and its peak memory in bytes."""
+    start = time.perf_counter()
+    process = subprocess.Popen([str(word) for word in command], stdout=sys.stderr)
+    _, status, usage = os.wait4(process.pid, 0)
+    seconds = time.perf_counter() - start
+    process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode != 0:
+        sys.exit(f"benchmark.py: exit code {process.returncode} from {' '.join(process.args)}")
+    return seconds, usage.ru_maxrss * 1024
+
+
+def measure_stages(fixture, args, folder):
+    """One process a fixture; inside it, the repetitions on 1 and 2 threads come in random order."""
+    out = folder / "stages.json"
+    run(args.bench, f"--benchmark_repetitions={args.repetitions}", "--benchmark_enable_random_interleaving=true",
+        "--benchmark_display_aggregates_only=true", f"--benchmark_out={out}", "--benchmark_out_format=json",
+        fixture.path)
+    for entry in json.loads(out.read_text())["benchmarks"]:
+        if entry["run_type"] == "iteration":
+            threads = int(entry["name"].split("/")[1])
+            fixture.rounds.setdefault(threads, []).append(entry)
+
+
+def vdb_tet(fixture, args, folder, *more):
+    """Run the tool; return its wall time, its peak memory and its report."""
+    report = folder / "report.json"
+    seconds, peak = run(args.vdb_tet, "-q", "-j", MOST, "--report", report, fixture.path, *more)
+    return seconds, peak, json.loads(report.read_text())
+
+
+def measure_memory(fixture, args, folder):
+    peaks, coarse_peaks = [], []
+    for _ in range(args.repetitions):
+        _, peak, fixture.report = vdb_tet(fixture, args, folder, "--dry-run")
+        peaks.append(peak)
+        if fixture.resolution:
+            # The process and its grid, with a band that is as good as none and alike at all resolutions.
+            coarse = vdb_tet(fixture, args, folder, "--dry-run", "--voxels", fixture.resolution / 16)
+            coarse_peaks.append(coarse[1])
+    fixture.peak = statistics.median(peaks)
+    if coarse_peaks:
+        fixture.coarse_peak = statistics.median(coarse_peaks)
+
+
+def measure_processes(fixture, args, folder):
+    """vdb_tet to a VTU, and cp of the same file. That comes from the page cache, and nothing is synced."""
+    size = fixture.report["bytes"]
+    if size > min(MAX_FILE_BYTES, shutil.disk_usage(folder).free / 3):
+        return
+    first, out, copy = folder / "first.vtu", folder / "out.vtu", folder / "copy.vtu"
+    vdb_tet(fixture, args, folder, first)
+    for _ in range(args.repetitions):
+        seconds, _, report = vdb_tet(fixture, args, folder, out)
+        out.unlink()
+        read = next(stage["seconds"] for stage in report["stages"] if stage["name"] == "read")
+        copying, _ = run("cp", first, copy)
+        copy.unlink()
+        fixture.processes.append((seconds, read, copying))
+    first.unlink()
+
+
+def print_table(header, rows):
+    for row in [header, ["---"] + ["--:"] * (len(header) - 1), *rows]:
+        print("| " + " | ".join(row) + " |")
+    print()
+
+
+def print_environment(args):
+    model = platform.processor() or platform.machine()
+    for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines():
+        if line.startswith("model name"):
+            model = line.split(":", 1)[1].strip()
+    memory = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    version = subprocess.run([args.vdb_tet, "--version"], capture_output=True, text=True, check=True).stdout.strip()
+    print(f"{version}; {model}, {os.cpu_count()} logical CPUs, {memory / 2**30:.0f} GiB; {platform.system()} "
+          f"{platform.release()}; medians of {args.repetitions} repetitions.\n")
+
+
+def print_stages(fixtures):
+    print(f"Milliseconds on {THREADS[0]} → {MOST} threads, and the speed-up:\n")
+
+    def cell(fixture, names):
+        if names[0] not in fixture.rounds[MOST][0]:
+            return "–"
+        one, most = (1000 * fixture.seconds(names, threads) for threads in (THREADS[0], MOST))
+        digits = 0 if one >= 1000 else 1 if one >= 10 else 3
+        return f"{one:.{digits}f} → {most:.{digits}f} ({one / most:.2f})"
+
+    stages = fixtures[0].stages()
+    band = fixtures[0].band()
+    rows = [(name, [name]) for name in stages]
+    rows += [(f"band: {band[0]} to {band[-1]}", band), ("volumeToTets, chunks dropped", ["volumeToTets"]),
+             ("volumeToTets, into memory", ["wholeMesh"]), ("OpenVDB's volumeToMesh", ["volumeToMesh"]),
+             ("memcpy of the mesh", ["memcpy"])]
+    print_table(["ms"] + [f.name for f in fixtures],
+                [[label] + [cell(f, names) for f in fixtures] for label, names in rows])
+
+
+def print_ratios(fixtures):
+    print(f"Ratios on {MOST} threads:\n")
+    rows = [
+        ("band / volumeToMesh", "0.5", lambda f: f.ratio(f.band(), "volumeToMesh")),
+        ("band with tiles / volumeToMesh", "", lambda f: f.ratio(["tiles"] + f.band(), "volumeToMesh")),
+        ("whole mesh into memory / memcpy of it", "2, aim 1.3", lambda f: f.ratio(["wholeMesh"], "memcpy")),
+        ("vdb_tet to VTU / (read + cp of the file)", "1.5", Fixture.process_ratio),
+        ("peak memory beyond the grid / (300 B a surface vertex + 200 MB)", "1", Fixture.memory_ratio),
+    ]
+    show = lambda value: "–" if value is None else f"{value:.2f}"
+    print_table(["ratio", "at most"] + [f.name for f in fixtures],
+                [[label, target] + [show(ratio(f)) for f in fixtures] for label, target, ratio in rows])
+
+
+def print_processes(fixtures):
+    fixtures = [f for f in fixtures if f.processes]
+    if not fixtures:
+        return
+    print(f"Whole processes on {MOST} threads, in seconds:\n")
+    rows = [[label] + [f"{statistics.median(p[i] for p in f.processes):.3f}" for f in fixtures]
+            for i, label in enumerate(["vdb_tet to VTU", "of that, reading the grid", "cp of the VTU"])]
+    rows.append(["size of the VTU, MB"] + [f"{f.report['bytes'] / 1e6:.0f}" for f in fixtures])
+    print_table(["s"] + [f.name for f in fixtures], rows)
+
+
+def exponent(points):
+    """The p of n^p, by least squares on logarithms."""
+    logs = [(math.log(n), math.log(value)) for n, value in points]
+    mean_x, mean_y = (statistics.fmean(column) for column in zip(*logs))
+    return sum((x - mean_x) * (y - mean_y) for x, y in logs) / sum((x - mean_x) ** 2 for x, _ in logs)
+
+
+def print_growth(fixtures):
+    fixtures = [f for f in fixtures if f.resolution]
+    if len(fixtures) < 2:
+        return
+    sizes = [f.resolution for f in fixtures]
+    print(f"Growth from {sizes[0]} to {sizes[-1]} as n^p, on {MOST} threads:\n")
+    rows = [
+        ("band, seconds", "2.0 ± 0.15", "{:.4f}", lambda f: f.seconds(f.band())),
+        ("peak memory beyond a coarse lattice's, MB", "2.0 ± 0.15", "{:.1f}",
+         lambda f: max(f.peak - f.coarse_peak, 4096) / 1e6),  # a page at least, as zero has no logarithm
+        ("emit, seconds (surface tiles n^2, interior n^3)", "3 in the limit", "{:.3f}", lambda f: f.seconds(["emit"])),
+        ("tets, millions", "3", "{:.2f}", lambda f: f.report["tets"] / 1e6),
+    ]
+    table = []
+    for label, target, shape, value in rows:
+        values = [value(f) for f in fixtures]
+        points = list(zip(sizes, values))
+        table.append([label] + [shape.format(v) for v in values] +
+                     [f"{exponent(points):.2f}", f"{exponent(points[-2:]):.2f}", target])
+    print_table(["quantity"] + [str(n) for n in sizes] + ["p", "p of the last two", "target"], table)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--bench", required=True, type=os.path.abspath, help="vdbtet_bench")
+    parser.add_argument("--vdb-tet", required=True, type=os.path.abspath, help="vdb_tet")
+    parser.add_argument("--folder", required=True, help="where to make a temporary folder for grids and meshes")
+    parser.add_argument("--sizes", default="128,256,512,1024", help="resolutions of the fixture made by code")
+    parser.add_argument("--repetitions", type=int, default=5)
+    parser.add_argument("grids", nargs="*", help="more grids, .vdb")
+    args = parser.parse_args()
+
+    with tempfile.TemporaryDirectory(dir=args.folder) as name:
+        folder = pathlib.Path(name)
+        fixtures = []
+        for size in sorted(int(text) for text in args.sizes.split(",")):
+            fixtures.append(Fixture(folder / f"torus_{size}.vdb", size))
+            run(args.bench, "--write", size, fixtures[-1].path)
+        fixtures += [Fixture(path) for path in args.grids]
+        for fixture in fixtures:
+            progress(f"benchmark.py: {fixture.name}")
+            measure_memory(fixture, args, folder)
+            measure_stages(fixture, args, folder)
+            measure_processes(fixture, args, folder)
+
+    print_environment(args)
+    print_ratios(fixtures)
+    print_stages(fixtures)
+    print_processes(fixtures)
+    print_growth(fixtures)
+
+
+if __name__ == "__main__":
+    main()

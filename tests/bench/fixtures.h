@@ -1,0 +1,15 @@
+/// @file fixtures.h
+/// The solid that the benchmarks mesh, at any resolution.
+#pragma once
+
+#include <openvdb/openvdb.h>
+
+namespace vdbtet::bench {
+
+/// @brief A tilted torus with bumps, as a level set of half width 3.
+/// @param resolution  voxels along its longest side, which is one world unit long
+/// @details All of the shape scales with the resolution, so its surface grows with the square and its inside
+/// with the cube of it. The tube is so thin that the mesh at 512 still fits into memory, twice.
+openvdb::FloatGrid::Ptr bumpyTorus(int resolution);
+
+} // namespace vdbtet::bench
