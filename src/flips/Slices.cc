@@ -19,6 +19,15 @@ namespace {
 constexpr double kMinAngle = 11.47; // degrees; the policy of Algorithm 4
 constexpr double kTieAngle = 1e-5;  // degrees; more than distances in float can turn an angle
 
+VDBTET_KERNEL inline double lesser(double a, double b) { return a < b ? a : b; }
+VDBTET_KERNEL inline double greater(double a, double b) { return a < b ? b : a; }
+VDBTET_KERNEL inline double least(const double (&six)[6]) {
+    return lesser(lesser(lesser(six[0], six[1]), lesser(six[2], six[3])), lesser(six[4], six[5]));
+}
+VDBTET_KERNEL inline double most(const double (&six)[6]) {
+    return greater(greater(greater(six[0], six[1]), greater(six[2], six[3])), greater(six[4], six[5]));
+}
+
 /// The octahedra of active spines, as many as there are lanes.
 struct ActiveBatch {
     static constexpr int kLanes = 16;
@@ -41,38 +50,35 @@ struct ActiveBatch {
         return {minVolume[slice][lane] <= 0.0, minCos[slice][lane], maxCos[slice][lane]};
     }
 
-    void judge(Isa isa);
-};
-
-void ActiveBatch::judge(Isa isa) {
-    runOn(isa, [&]() VDBTET_KERNEL {
+    /// Judge a slice whose diagonal starts at the ring's vertex @a kFrom.
+    template <int kSlice, int kFrom>
+    VDBTET_KERNEL inline void judge() {
         for (int i = 0; i < kLanes; ++i) {
-            const auto vertex = [&](int v) VDBTET_KERNEL { return Triple{at[v][0][i], at[v][1][i], at[v][2][i]}; };
-            const Triple end = vertex(0);
-            for (int slice = 0; slice < 2; ++slice) {
-                // The ring from an end of the diagonal on.
-                const Triple from = vertex(slice == 0 ? 1 : 4), second = vertex(slice == 0 ? 2 : 1),
-                             third = vertex(slice == 0 ? 3 : 2), fourth = vertex(slice == 0 ? 4 : 3);
-                double one[6], two[6];
-                // Slice A has the tets 2 3 4 and 2 4 5 of the ring, slice B 5 2 3 and 5 3 4.
-                dihedralCosines(from, second, third, end, one);
-                dihedralCosines(from, third, fourth, end, two);
-                double least = one[0], most = one[0];
-                for (int k = 0; k < 6; ++k) {
-                    least = one[k] < least ? one[k] : least;
-                    least = two[k] < least ? two[k] : least;
-                    most = most < one[k] ? one[k] : most;
-                    most = most < two[k] ? two[k] : most;
-                }
-                minCos[slice][i] = least;
-                maxCos[slice][i] = most;
-                const double volume1 = side[i] * dot(cross(second - from, third - from), end - from),
-                             volume2 = side[i] * dot(cross(third - from, fourth - from), end - from);
-                minVolume[slice][i] = volume1 < volume2 ? volume1 : volume2;
-            }
+            const auto ring = [&](int n) VDBTET_KERNEL {
+                const auto& p = at[1 + (kFrom + n) % 4];
+                return Triple{p[0][i], p[1][i], p[2][i]};
+            };
+            const Triple end{at[0][0][i], at[0][1][i], at[0][2][i]};
+            const Triple from = ring(0), second = ring(1), third = ring(2), fourth = ring(3);
+            double one[6], two[6];
+            dihedralCosines(from, second, third, end, one);
+            dihedralCosines(from, third, fourth, end, two);
+            minCos[kSlice][i] = lesser(least(one), least(two));
+            maxCos[kSlice][i] = greater(most(one), most(two));
+            const double volume1 = side[i] * dot(cross(second - from, third - from), end - from),
+                         volume2 = side[i] * dot(cross(third - from, fourth - from), end - from);
+            minVolume[kSlice][i] = lesser(volume1, volume2);
         }
-    });
-}
+    }
+
+    void judge(Isa isa) {
+        // Slice A has the tets 2 3 4 and 2 4 5 of the ring, slice B 5 2 3 and 5 3 4.
+        runOn(isa, [&]() VDBTET_KERNEL {
+            judge<0, 0>();
+            judge<1, 3>();
+        });
+    }
+};
 
 } // namespace
 

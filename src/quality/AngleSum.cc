@@ -11,15 +11,20 @@ namespace vdbtet {
 
 namespace {
 
-/// The cosines of 10, 20, ... 170 degrees.
+/// The signed squares of the cosines of 10, 20, ... 170 degrees.
 const std::array<double, 17>& binEdges() {
     static const std::array<double, 17> kEdges = [] {
         std::array<double, 17> edges;
-        for (int i = 0; i < 17; ++i) edges[i] = std::cos((i + 1) * 10.0 / 57.295779513082320877);
+        for (int i = 0; i < 17; ++i) {
+            const double cosine = std::cos((i + 1) * 10.0 / 57.295779513082320877);
+            edges[i] = cosine * std::abs(cosine);
+        }
         return edges;
     }();
     return kEdges;
 }
+
+double cosineOf(double square) { return std::copysign(std::sqrt(std::abs(square)), square); }
 
 } // namespace
 
@@ -33,36 +38,39 @@ void AngleSum::flush() {
     const auto& edges = binEdges();
 
     runOn(mIsa, [&]() VDBTET_KERNEL {
-        double cosines[6][kBatch];
+        constexpr int kAngles = 6 * kBatch;
+        double squares[kAngles];
         for (int i = 0; i < kBatch; ++i) {
             const auto vertex = [&](int v) VDBTET_KERNEL {
                 return Triple{mBatch[3 * v][i], mBatch[3 * v + 1][i], mBatch[3 * v + 2][i]};
             };
             double six[6];
-            dihedralCosines(vertex(0), vertex(1), vertex(2), vertex(3), six);
-            for (int k = 0; k < 6; ++k) cosines[k][i] = six[k];
+            signedSquares(vertex(0), vertex(1), vertex(2), vertex(3), six);
+            for (int k = 0; k < 6; ++k) squares[k * kBatch + i] = six[k];
         }
-        constexpr int kLanes = 16;
-        double least[kLanes], most[kLanes];
-        for (int i = 0; i < kLanes; ++i) least[i] = mMinCos, most[i] = mMaxCos;
-        for (const auto& row : cosines) {
-            for (int first = 0; first < kBatch; first += kLanes) {
-                for (int i = 0; i < kLanes; ++i) {
-                    const double cosine = row[first + i];
-                    least[i] = cosine < least[i] ? cosine : least[i];
-                    most[i] = most[i] < cosine ? cosine : most[i];
-                }
+        double least[kBatch], most[kBatch];
+        for (int i = 0; i < kBatch; ++i) least[i] = most[i] = squares[i];
+        for (int first = kBatch; first < kAngles; first += kBatch) {
+            for (int i = 0; i < kBatch; ++i) {
+                const double square = squares[first + i];
+                least[i] = square < least[i] ? square : least[i];
+                most[i] = most[i] < square ? square : most[i];
             }
         }
-        mMinCos = *std::min_element(least, least + kLanes);
-        mMaxCos = *std::max_element(most, most + kLanes);
+        // Halve until one is left.
+        for (int half = kBatch / 2; half > 0; half /= 2) {
+            for (int i = 0; i < half; ++i) {
+                least[i] = least[i + half] < least[i] ? least[i + half] : least[i];
+                most[i] = most[i] < most[i + half] ? most[i + half] : most[i];
+            }
+        }
+        mMin = std::min(mMin, least[0]);
+        mMax = std::max(mMax, most[0]);
         for (int bin = 0; bin < kBins - 1; ++bin) {
             const double edge = edges[bin];
             std::int64_t beyond = 0, repeated = 0;
-            for (const auto& row : cosines) {
-                for (int i = 0; i < kBatch; ++i) beyond += row[i] <= edge ? 1 : 0;
-                repeated += row[0] <= edge ? 1 : 0;
-            }
+            for (int i = 0; i < kAngles; ++i) beyond += squares[i] <= edge ? 1 : 0;
+            for (int k = 0; k < 6; ++k) repeated += squares[k * kBatch] <= edge ? 1 : 0;
             mBeyond[bin] += beyond - (kBatch - count) * repeated;
         }
     });
@@ -71,8 +79,8 @@ void AngleSum::flush() {
 void AngleSum::add(AngleSum& other) {
     flush();
     other.flush();
-    mMinCos = std::min(mMinCos, other.mMinCos);
-    mMaxCos = std::max(mMaxCos, other.mMaxCos);
+    mMin = std::min(mMin, other.mMin);
+    mMax = std::max(mMax, other.mMax);
     mAngles += other.mAngles;
     for (std::size_t i = 0; i < mBeyond.size(); ++i) mBeyond[i] += other.mBeyond[i];
     mLatticeTets += other.mLatticeTets;
@@ -89,9 +97,9 @@ AngleStats AngleSum::stats() {
     }
     stats.histogram[6] += 4 * mLatticeTets;
     stats.histogram[9] += 2 * mLatticeTets;
-    if (mMaxCos >= mMinCos) {
-        stats.min = angleOf(mMaxCos);
-        stats.max = angleOf(mMinCos);
+    if (mMax >= mMin) {
+        stats.min = angleOf(cosineOf(mMax));
+        stats.max = angleOf(cosineOf(mMin));
     }
     if (mLatticeTets > 0) {
         stats.min = std::min(stats.min, 60.0);

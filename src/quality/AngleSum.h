@@ -1,5 +1,5 @@
 /// @file AngleSum.h
-/// Sums up the dihedral angles of very many tets, by their cosines.
+/// Sums up the dihedral angles of very many tets.
 #pragma once
 
 #include "simd/Isa.h"
@@ -41,7 +41,7 @@ private:
     void flush();
 
     Isa mIsa;
-    double mMinCos = 1.0, mMaxCos = -1.0;
+    double mMin = 1.0, mMax = -1.0; ///< of the signed squares of the cosines
     std::int64_t mAngles = 0;
     std::array<std::int64_t, kBins - 1> mBeyond{}; ///< angles of at least 10, 20, ... 170 degrees
     std::int64_t mLatticeTets = 0;

@@ -40,12 +40,29 @@ VDBTET_KERNEL inline void dihedralCosines(const Triple& a, const Triple& b, cons
     cosines[5] = -dot(na, nb) * ia * ib;
 }
 
+/// The same squared, with the cosine's sign: they sort as the cosines do, and take one division instead of
+/// four and as many roots.
+VDBTET_KERNEL inline void signedSquares(const Triple& a, const Triple& b, const Triple& c, const Triple& d,
+                                        double (&squares)[6]) {
+    const Triple ab = b - a, ac = c - a, ad = d - a, bc = c - b, bd = d - b;
+    const Triple na = cross(bc, bd), nb = cross(ad, ac), nc = cross(ab, ad), nd = cross(ac, ab);
+    const double aa = dot(na, na), bb = dot(nb, nb), cc = dot(nc, nc), dd = dot(nd, nd);
+    const double aabb = aa * bb, ccdd = cc * dd, inverse = 1.0 / (aabb * ccdd);
+    const double cosines[6] = {dot(nc, nd), dot(nb, nd), dot(nb, nc), dot(na, nd), dot(na, nc), dot(na, nb)};
+    squares[0] = -cosines[0] * std::abs(cosines[0]) * (aabb * inverse);
+    squares[1] = -cosines[1] * std::abs(cosines[1]) * (aa * cc * inverse);
+    squares[2] = -cosines[2] * std::abs(cosines[2]) * (aa * dd * inverse);
+    squares[3] = -cosines[3] * std::abs(cosines[3]) * (bb * cc * inverse);
+    squares[4] = -cosines[4] * std::abs(cosines[4]) * (bb * dd * inverse);
+    squares[5] = -cosines[5] * std::abs(cosines[5]) * (ccdd * inverse);
+}
+
 inline std::array<double, 6> dihedralCosines(const openvdb::Vec3d& a, const openvdb::Vec3d& b,
                                              const openvdb::Vec3d& c, const openvdb::Vec3d& d) {
     const auto triple = [](const openvdb::Vec3d& v) { return Triple{v.x(), v.y(), v.z()}; };
-    double cosines[6];
-    dihedralCosines(triple(a), triple(b), triple(c), triple(d), cosines);
-    return {cosines[0], cosines[1], cosines[2], cosines[3], cosines[4], cosines[5]};
+    double six[6];
+    dihedralCosines(triple(a), triple(b), triple(c), triple(d), six);
+    return {six[0], six[1], six[2], six[3], six[4], six[5]};
 }
 
 /// @return the angle in degrees of a cosine that rounding may have taken out of [-1,1].
