@@ -76,20 +76,30 @@ public:
         for (const std::uint16_t row : rows) all |= row;
         return all != 0;
     }
+    int count() const {
+        int sum = 0;
+        for (std::uint64_t word : words()) sum += countBits(word);
+        return sum;
+    }
 
     /// Call @a visit(n) for each set bit, in ascending order.
     template <typename Visit>
     void forEach(Visit&& visit) const {
-        constexpr int kWords = kRows / 4;
-        static_assert(4 * kWords == kRows && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "rows must fill words");
-        std::uint64_t words[kWords];
-        std::memcpy(words, rows, sizeof words);
-        forEachBit(words, visit);
+        forEachBit(words(), visit);
     }
 
     std::uint16_t rows[kRows] = {}; ///< x-major
 
 private:
+    static constexpr int kWords = kRows / 4;
+    static_assert(4 * kWords == kRows && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__,
+                  "four rows make a word, the first the lowest");
+    std::array<std::uint64_t, kWords> words() const {
+        std::array<std::uint64_t, kWords> words;
+        std::memcpy(words.data(), rows, sizeof rows);
+        return words;
+    }
+
     // Eight rows of a slab at a time, in vectors as both GCC and Clang know them.
     typedef std::uint16_t Rows __attribute__((vector_size(16)));
     typedef std::uint8_t Bytes __attribute__((vector_size(8)));

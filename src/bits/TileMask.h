@@ -4,8 +4,8 @@
 /// A bit's number is x<<6 | y<<3 | z, as in a VDB leaf: a word is an x-slab, a byte a z-row.
 #pragma once
 
-#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace vdbtet {
@@ -16,19 +16,19 @@ inline int lowestBit(std::uint64_t word) { return __builtin_ctzll(word); }
 /// @brief Call @a visit(n) for each set bit of some words, in ascending order.
 /// @details A loop over the bits of each word would guess its end wrong nearly every time: most words have none,
 /// one or two. Here they are listed first, two from each word whatever it has.
-template <int kWords, typename Visit>
-void forEachBit(const std::uint64_t (&words)[kWords], Visit&& visit) {
+template <std::size_t kWords, typename Visit>
+void forEachBit(const std::array<std::uint64_t, kWords>& words, Visit&& visit) {
     constexpr std::uint64_t kTop = std::uint64_t(1) << 63; // keeps the lowest bit of nothing defined
     std::uint16_t list[kWords * 64 + 2];
     std::uint16_t* next = list;
-    for (int w = 0; w < kWords; ++w) {
+    for (std::size_t w = 0; w < kWords; ++w) {
         std::uint64_t word = words[w];
         std::uint16_t* const end = next + countBits(word);
-        next[0] = std::uint16_t(w << 6 | lowestBit(word | kTop));
+        next[0] = std::uint16_t(w << 6 | unsigned(lowestBit(word | kTop)));
         word &= word - 1;
-        next[1] = std::uint16_t(w << 6 | lowestBit(word | kTop));
+        next[1] = std::uint16_t(w << 6 | unsigned(lowestBit(word | kTop)));
         word &= word - 1;
-        for (next += 2; next < end; ++next, word &= word - 1) *next = std::uint16_t(w << 6 | lowestBit(word));
+        for (next += 2; next < end; ++next, word &= word - 1) *next = std::uint16_t(w << 6 | unsigned(lowestBit(word)));
         next = end;
     }
     for (const std::uint16_t* n = list; n != next; ++n) visit(int(*n));
@@ -38,12 +38,12 @@ struct TileMask {
     static constexpr int kDim = 8;
     static constexpr int kSize = kDim * kDim * kDim;
 
-    std::uint64_t words[kDim] = {};
+    std::array<std::uint64_t, kDim> words{};
 
     static constexpr int bit(int x, int y, int z) { return x << 6 | y << 3 | z; }
     static TileMask filled(bool on) {
         TileMask mask;
-        for (auto& word : mask.words) word = on ? ~std::uint64_t(0) : 0;
+        mask.words.fill(on ? ~std::uint64_t(0) : 0);
         return mask;
     }
 
@@ -68,9 +68,13 @@ struct TileMask {
     }
     /// @return how many bits below bit @a n are set.
     int rank(int n) const {
+        const std::uint64_t below = (std::uint64_t(1) << (n & 63)) - 1;
         int sum = 0;
-        for (int w = 0; w < n >> 6; ++w) sum += countBits(words[w]);
-        return sum + countBits(words[n >> 6] & ((std::uint64_t(1) << (n & 63)) - 1));
+        for (int w = 0; w < kDim; ++w) { // the same steps for all n, so none is guessed wrong
+            const std::uint64_t part = w < n >> 6 ? ~std::uint64_t(0) : w == n >> 6 ? below : 0;
+            sum += countBits(words[w] & part);
+        }
+        return sum;
     }
 
     /// Call @a visit(n) for each set bit, in ascending order.
@@ -98,9 +102,7 @@ struct TileMask {
         for (auto& word : a.words) word = ~word;
         return a;
     }
-    friend bool operator==(const TileMask& a, const TileMask& b) {
-        return std::equal(a.words, a.words + kDim, b.words);
-    }
+    friend bool operator==(const TileMask& a, const TileMask& b) { return a.words == b.words; }
     friend bool operator!=(const TileMask& a, const TileMask& b) { return !(a == b); }
 };
 

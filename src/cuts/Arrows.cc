@@ -8,20 +8,29 @@ namespace vdbtet {
 
 namespace {
 
-/// @return the L_A vertices whose edge in @a direction is cut and has an end in the tile.
-PaddedMask cutEdges(const PaddedMask& a, const PaddedMask& b, int direction) {
-    // An L_A vertex at 8 has such an edge only where it leads back.
-    const bcc::Step step = bcc::shortEdge(bcc::A, direction);
-    const int endX = step.x < 0 ? 9 : 8, endY = step.y < 0 ? 9 : 8, endZ = step.z < 0 ? 9 : 8;
-    const unsigned row = ((1u << endZ) - 1) << 1;
-    PaddedMask cut;
-    for (int x = 0; x < endX; ++x) {
-        for (int y = 0; y < endY; ++y) {
-            const int r = PaddedMask::bit(x, y, -1) / PaddedMask::kRowBits;
-            const unsigned far = b.rows[r + step.x * PaddedMask::kDim + step.y];
-            cut.rows[r] = std::uint16_t((a.rows[r] ^ far << -step.z) & row);
+/// The L_A vertices whose edge in a direction has an end in the tile: one at 8 only where the edge leads back.
+std::array<PaddedMask, bcc::kDirections> edgesOfTile() {
+    std::array<PaddedMask, bcc::kDirections> edges;
+    for (int d = 0; d < bcc::kDirections; ++d) {
+        const bcc::Step step = bcc::shortEdge(bcc::A, d);
+        for (int x = 0; x < 8 - step.x; ++x) {
+            for (int y = 0; y < 8 - step.y; ++y) {
+                for (int z = 0; z < 8 - step.z; ++z) edges[d].set(PaddedMask::bit(x, y, z));
+            }
         }
     }
+    return edges;
+}
+
+/// @return those of edgesOfTile() in @a direction that are cut.
+PaddedMask cutEdges(const PaddedMask& a, const PaddedMask& b, int direction) {
+    static const auto kEdges = edgesOfTile();
+    const bcc::Step step = bcc::shortEdge(bcc::A, direction);
+    constexpr int kFirst = PaddedMask::bit(0, 0, -1) / PaddedMask::kRowBits;
+    const std::uint16_t* far = b.rows + step.x * PaddedMask::kDim + step.y;
+    PaddedMask cut;
+    for (int r = kFirst; r < PaddedMask::kRows; ++r)
+        cut.rows[r] = std::uint16_t((a.rows[r] ^ far[r] << -step.z) & kEdges[direction].rows[r]);
     return cut;
 }
 
@@ -44,16 +53,19 @@ public:
         cuts.signs = {a.core(), b.core()};
 
         std::array<PaddedMask, bcc::kDirections> cut, nearer;
-        mEdges.clear();
+        std::size_t count = 0;
         for (int d = 0; d < bcc::kDirections; ++d) {
             cut[d] = cutEdges(a, b, d);
-            cut[d].forEach(
-                [&](int n) { mEdges.push_back({std::uint16_t(n), std::uint16_t(d)}); });
+            count += std::size_t(cut[d].count());
             cuts.cutEdges += cut[d].core().count();
         }
-        if (mEdges.empty()) return cuts;
+        if (count == 0) return cuts;
 
-        mNearer.resize(mEdges.size());
+        mEdges.resize(count);
+        ShortEdge* edge = mEdges.data();
+        for (int d = 0; d < bcc::kDirections; ++d)
+            cut[d].forEach([&](int n) { *edge++ = {std::uint16_t(n), std::uint16_t(d)}; });
+        mNearer.resize(count);
         mSampler->nearerToA(tile, mEdges, mNearer.data());
         for (std::size_t i = 0; i < mEdges.size(); ++i)
             nearer[mEdges[i].direction].set(mEdges[i].vertex, mNearer[i]);

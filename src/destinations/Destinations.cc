@@ -18,15 +18,18 @@ class Nearest {
 public:
     void find(Field::Sampler& sampler, const openvdb::Coord& tile, bcc::Lattice lattice,
               const EdgeMasks& edges) {
-        mEdges.clear();
+        std::size_t count = 0;
+        for (const TileMask& mask : edges) count += std::size_t(mask.count());
+        mEdges.resize(count);
+        mCuts.resize(count);
+        ShortEdge* edge = mEdges.data();
         for (int d = 0; d < bcc::kDirections; ++d) {
             edges[d].forEach([&](int n) {
                 const int vertex = PaddedMask::bit(n);
-                mEdges.push_back({std::uint16_t(vertex), std::uint16_t(d)});
+                *edge++ = {std::uint16_t(vertex), std::uint16_t(d)};
                 mDistance[vertex] = 2.0f;
             });
         }
-        mCuts.resize(mEdges.size());
         sampler.cutPoints(tile, lattice, mEdges, mCuts.data());
         for (std::size_t i = 0; i < mEdges.size(); ++i) {
             float& distance = mDistance[mEdges[i].vertex];
@@ -83,10 +86,11 @@ Destinations findDestinations(const Field& field, const Layout& layout, const Ar
                 const TileMask& manifold = labels.manifold[t][lattice];
                 if (!manifold.any()) continue;
                 const PaddedMask far(around.masks(labels.manifold, bcc::other(lattice)));
-                EdgeMasks edges = (*arrows.of[t])[lattice];
+                const EdgeMasks& leaving = (*arrows.of[t])[lattice];
+                EdgeMasks edges;
                 for (int d = 0; d < bcc::kDirections; ++d) {
                     const bcc::Step step = bcc::shortEdge(lattice, d);
-                    edges[d] &= manifold & ~far.shifted(step.x, step.y, step.z);
+                    edges[d] = leaving[d] & manifold & ~far.shifted(step.x, step.y, step.z);
                 }
                 nearest.find(*sampler, layout.surfaceTiles[t], lattice, edges);
                 std::int64_t move = destinations.first[t][lattice];

@@ -36,12 +36,20 @@ void LocalStates::load(const Vertices& vertices, TileRef tile) {
     }
 }
 
-LocalVertices::LocalVertices() {
-    for (int local = 0; local < kLocalVertices; ++local) mPosition[local] = home(local);
+std::int64_t LocalVertices::moveOf(int local) const {
+    const int n = bitOf(local), x = PaddedMask::x(n), y = PaddedMask::y(n), z = PaddedMask::z(n);
+    const TileRef from = (*mNeighbours)[neighbourSlot(tileStep(x), tileStep(y), tileStep(z))];
+    const bcc::Lattice lattice = latticeOf(local);
+    return mVertices.destinations.first[from][lattice] +
+           mVertices.labels.manifold[from][lattice].rank(TileMask::bit(x & 7, y & 7, z & 7));
 }
 
-void LocalVertices::loadMoves(const Vertices& vertices, TileRef tile) {
-    for (const Moved& moved : mMoved) mPosition[moved.local] = home(moved.local);
+LocalPositions::LocalPositions() {
+    for (int local = 0; local < kLocalVertices; ++local) mPosition[local] = homeOf(local);
+}
+
+void LocalPositions::load(const Vertices& vertices, TileRef tile) {
+    for (int local : mMoved) mPosition[local] = homeOf(local);
     mMoved.clear();
     const Neighbours& neighbours = vertices.layout.neighbours[tile];
     const Destinations& destinations = vertices.destinations;
@@ -60,10 +68,9 @@ void LocalVertices::loadMoves(const Vertices& vertices, TileRef tile) {
                 for (std::uint64_t word = all & border.words[w]; word != 0; word &= word - 1) {
                     const int bit = lowestBit(word);
                     const int local = localIndex(lattice, w << 6 | bit) + shift;
-                    const std::int64_t move = before + countBits(all & ((std::uint64_t(1) << bit) - 1));
-                    mPosition[local] += destinations.move(move);
-                    mMove[local] = move;
-                    mMoved.push_back({local, move});
+                    mPosition[local] +=
+                        destinations.move(before + countBits(all & ((std::uint64_t(1) << bit) - 1)));
+                    mMoved.push_back(local);
                 }
                 before += countBits(all);
             }

@@ -82,51 +82,56 @@ private:
 /// The part of the neighbour at neighbourSlot() @a slot, by its own bits, that is in a tile's border.
 const TileMask& borderOf(int slot);
 
-/// The same vertices with their positions.
-class LocalVertices {
+/// The place of a vertex in the lattice, relative to L_A's lowest vertex of the tile.
+inline openvdb::Vec3d homeOf(int local) {
+    const double shift = 0.5 * latticeOf(local);
+    const int n = bitOf(local);
+    return openvdb::Vec3d(PaddedMask::x(n) + shift, PaddedMask::y(n) + shift, PaddedMask::z(n) + shift);
+}
+
+/// The same vertices, with the moves of any of them looked up when asked for.
+class LocalVertices : public LocalStates {
 public:
-    LocalVertices();
+    explicit LocalVertices(const Vertices& vertices) : mVertices(vertices) {}
 
-    /// Unpack the surroundings of surface tile @a tile.
-    void load(const Vertices& vertices, TileRef tile) {
-        mStates.load(vertices, tile);
-        loadMoves(vertices, tile);
+    void load(TileRef tile) {
+        LocalStates::load(mVertices, tile);
+        mNeighbours = &mVertices.layout.neighbours[tile];
     }
-    /// The same in two parts, for those who need the second of few tiles.
-    void loadStates(const Vertices& vertices, TileRef tile) { mStates.load(vertices, tile); }
-    void loadMoves(const Vertices& vertices, TileRef tile);
 
-    const LocalStates& states() const { return mStates; }
-    State state(int local) const { return mStates.state(local); }
-    bool manifold(int local) const { return mStates.manifold(local); }
+    /// The number of a manifold vertex's move in Destinations.
+    std::int64_t moveOf(int local) const;
 
     /// The position in lattice units, relative to L_A's lowest vertex of the tile; for manifold vertices the
     /// destination.
-    const openvdb::Vec3d& position(int local) const { return mPosition[local]; }
-
-    /// A manifold vertex that moves.
-    struct Moved {
-        int local;
-        std::int64_t move; ///< its number in Destinations
-    };
-    /// All of them.
-    const std::vector<Moved>& moved() const { return mMoved; }
-
-    /// The number of a manifold vertex's move in Destinations.
-    std::int64_t moveOf(int local) const { return mMove[local]; }
-
-    /// The place in the lattice.
-    static openvdb::Vec3d home(int local) {
-        const double shift = 0.5 * latticeOf(local);
-        const int n = bitOf(local);
-        return openvdb::Vec3d(PaddedMask::x(n) + shift, PaddedMask::y(n) + shift, PaddedMask::z(n) + shift);
+    openvdb::Vec3d position(int local) const {
+        return manifold(local) ? homeOf(local) + mVertices.destinations.move(moveOf(local)) : homeOf(local);
     }
 
+    const Destinations& destinations() const { return mVertices.destinations; }
+
 private:
-    LocalStates mStates;
+    const Vertices& mVertices;
+    const Neighbours* mNeighbours = nullptr;
+};
+
+/// The positions of all of them, for those who look at each many times.
+class LocalPositions {
+public:
+    LocalPositions();
+
+    /// Unpack the surroundings of surface tile @a tile.
+    void load(const Vertices& vertices, TileRef tile);
+
+    /// As LocalVertices::position().
+    const openvdb::Vec3d& operator[](int local) const { return mPosition[local]; }
+
+    /// Whether any vertex is not at home.
+    bool anyMoved() const { return !mMoved.empty(); }
+
+private:
     std::array<openvdb::Vec3d, kLocalVertices> mPosition;
-    std::array<std::int64_t, kLocalVertices> mMove; ///< of the manifold vertices
-    std::vector<Moved> mMoved;
+    std::vector<int> mMoved;
 };
 
 } // namespace vdbtet

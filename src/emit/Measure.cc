@@ -23,12 +23,13 @@ public:
 
     /// @return the number of tets
     std::int64_t measure(TileRef tile) {
-        mLocal.load(mVertices, tile);
-        mTets.load(tile, mLocal.states());
+        mStates.load(mVertices, tile);
+        mPositions.load(mVertices, tile);
+        mTets.load(tile, mStates);
         ambiguous += mTets.ambiguous();
-        if (!mLocal.moved().empty()) {
+        if (mPositions.anyMoved()) {
             addAngles();
-            boundaryFaces += countBoundaryFaces(mVertices, tile, mTets, mLocal.states());
+            boundaryFaces += countBoundaryFaces(mVertices, tile, mTets, mStates);
             expandBounds(tile);
         } else {
             angles.addLatticeTets(mTets.tets());
@@ -43,7 +44,7 @@ public:
 private:
     void addAngles() {
         const auto add = [&](int a, int b, int c, int d) {
-            angles.add(mLocal.position(a), mLocal.position(b), mLocal.position(c), mLocal.position(d));
+            angles.add(mPositions[a], mPositions[b], mPositions[c], mPositions[d]);
         };
         const auto addFlipped = [&](const LocalTet& tet) {
             add(tet.vertex(0), tet.vertex(1), tet.vertex(2), tet.vertex(3));
@@ -73,7 +74,7 @@ private:
         const Vec3d origin(8.0 * at.x(), 8.0 * at.y(), 8.0 * at.z());
         for (int lattice = 0; lattice < 2; ++lattice) {
             (mNumbering.used[tile][lattice] & mVertices.labels.manifold[tile][lattice]).forEach([&](int n) {
-                bounds.expand(mFrame.world(origin + mLocal.position(localIndex(lattice, n))));
+                bounds.expand(mFrame.world(origin + mPositions[localIndex(lattice, n)]));
             });
         }
     }
@@ -81,7 +82,8 @@ private:
     const Vertices& mVertices;
     const Numbering& mNumbering;
     const Frame& mFrame;
-    LocalVertices mLocal;
+    LocalStates mStates;
+    LocalPositions mPositions;
     TileTets mTets;
 };
 

@@ -132,7 +132,7 @@ void TileEmitter::emitSurfaceTile(const Coord& tile, TileRef surface, Output& ou
             out.points += countBits(bits);
         }
         manifold.forEach([&](int n) {
-            const Vec3d home = LocalVertices::home(localIndex(lattice, n));
+            const Vec3d home = homeOf(localIndex(lattice, n));
             const Vec3d to = home + mVertices.destinations.move(move++);
             if (used.test(n)) first[used.rank(n)] = mFrame.world(origin + to);
         });

@@ -16,14 +16,14 @@ constexpr double kExtremeMove = 0.3; // of a short edge; Algorithm 5
 
 /// @return the direction of the short edge between two neighbours, which may be of any octahedron.
 int directionBetween(int from, int to) {
-    const openvdb::Vec3d edge = LocalVertices::home(to) - LocalVertices::home(from);
+    const openvdb::Vec3d edge = homeOf(to) - homeOf(from);
     return 4 * (edge.x() > 0.0) + 2 * (edge.y() > 0.0) + (edge.z() > 0.0);
 }
 
 } // namespace
 
-ExtraFlip chooseExtraSlice(const LocalVertices& vertices, const Destinations& destinations,
-                           const LocalOctahedron& octahedron) {
+ExtraFlip chooseExtraSlice(const LocalVertices& vertices, const LocalOctahedron& octahedron) {
+    const Destinations& destinations = vertices.destinations();
     ExtraFlip flip;
     // v2 is the manifold end. Where it is the lower one the figure is seen in a mirror, which swaps its two
     // cases and nothing else.
@@ -72,7 +72,9 @@ namespace {
 /// Chooses the flips of one tile after another.
 class TileFlipper {
 public:
-    TileFlipper(const Vertices& vertices, bool withExtra) : mVertices(vertices), mWithExtra(withExtra) {}
+    /// @param farMoves  by surface tile and lattice, the manifold vertices that move at least kExtremeMove
+    TileFlipper(const Vertices& vertices, const std::vector<std::array<TileMask, 2>>& farMoves, bool withExtra)
+        : mVertices(vertices), mFarMoves(farMoves), mWithExtra(withExtra), mLocal(vertices) {}
 
     struct Result {
         std::vector<std::uint16_t> codes; ///< sorted
@@ -82,9 +84,11 @@ public:
     Result flip(TileRef tile) {
         Result result;
         if (!nearManifold(tile)) return result;
-        mLocal.loadStates(mVertices, tile);
-        mLocal.loadMoves(mVertices, tile);
-        findFar();
+        mLocal.load(tile);
+        const Surroundings around(mVertices.layout.neighbours[tile]);
+        for (int lattice = 0; lattice < 2; ++lattice) {
+            if (mWithExtra) mFar[lattice] = PaddedMask(around.masks(mFarMoves, lattice));
+        }
         mActive.clear();
         mOctahedra.clear();
         for (bcc::Lattice lattice : {bcc::A, bcc::B}) {
@@ -107,18 +111,10 @@ private:
         return false;
     }
 
-    void findFar() {
-        mFar[bcc::A] = mFar[bcc::B] = PaddedMask();
-        for (const auto& moved : mLocal.moved()) {
-            if (mVertices.destinations.distances[moved.move] >= kExtremeMove)
-                mFar[latticeOf(moved.local)].set(bitOf(moved.local));
-        }
-    }
-
     /// Algorithm 4: spines between vertices inside and outside that are not manifold.
     void findActive(bcc::Lattice lattice, int axis) {
-        const PaddedMask &interior = mLocal.states().interiorMask(lattice),
-                         &manifold = mLocal.states().manifoldMask(lattice);
+        const PaddedMask &interior = mLocal.interiorMask(lattice),
+                         &manifold = mLocal.manifoldMask(lattice);
         const TileMask spines = (interior.core() ^ interior.shifted(axis == 0, axis == 1, axis == 2)) &
                                 ~(manifold.core() | manifold.shifted(axis == 0, axis == 1, axis == 2));
         spines.forEach([&](int n) {
@@ -138,7 +134,7 @@ private:
 
     /// Algorithm 5: spines from a vertex inside to one that moves far, as two neighbours on the ring do.
     void flipExtra(bcc::Lattice lattice, int axis, Result& result) {
-        const PaddedMask& interior = mLocal.states().interiorMask(lattice);
+        const PaddedMask& interior = mLocal.interiorMask(lattice);
         const PaddedMask& far = mFar[lattice];
         TileMask spines = (interior.core() & far.shifted(axis == 0, axis == 1, axis == 2)) |
                           (far.core() & interior.shifted(axis == 0, axis == 1, axis == 2));
@@ -150,7 +146,7 @@ private:
         spines &= (ring(0) | ring(2)) & (ring(1) | ring(3));
         spines.forEach([&](int n) {
             const LocalOctahedron octahedron = localOctahedron(lattice, axis, localIndex(lattice, n));
-            const ExtraFlip flip = chooseExtraSlice(mLocal, mVertices.destinations, octahedron);
+            const ExtraFlip flip = chooseExtraSlice(mLocal, octahedron);
             result.conflicts += flip.conflict;
             if (flip.slice == bcc::S) return;
             result.codes.push_back(Flips::encode({lattice, axis, flip.slice, n}));
@@ -159,21 +155,40 @@ private:
     }
 
     const Vertices& mVertices;
+    const std::vector<std::array<TileMask, 2>>& mFarMoves;
     bool mWithExtra;
     LocalVertices mLocal;
-    PaddedMask mFar[2]; ///< the manifold vertices that move at least kExtremeMove, by lattice
+    PaddedMask mFar[2]; ///< mFarMoves around the tile
     std::vector<Flip> mActive;
     std::vector<LocalOctahedron> mOctahedra; ///< of mActive
     std::vector<bcc::Slice> mSlices;         ///< for mOctahedra
 };
+
+std::vector<std::array<TileMask, 2>> findFarMoves(const Vertices& vertices, Interrupt& interrupt) {
+    const std::int64_t tiles = vertices.layout.surfaceCount();
+    std::vector<std::array<TileMask, 2>> far(tiles);
+    parallelRanges(tiles, interrupt, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t t = begin; t < end; ++t) {
+            for (int lattice = 0; lattice < 2; ++lattice) {
+                const float* distance =
+                    vertices.destinations.distances.data() + vertices.destinations.first[t][lattice];
+                vertices.labels.manifold[t][lattice].forEach([&](int n) {
+                    if (*distance++ >= kExtremeMove) far[t][lattice].set(n);
+                });
+            }
+        }
+    });
+    return far;
+}
 
 } // namespace
 
 Flips chooseFlips(const Vertices& vertices, int version, Interrupt& interrupt) {
     const std::int64_t tiles = vertices.layout.surfaceCount();
     std::vector<TileFlipper::Result> parts(tiles);
+    const auto farMoves = findFarMoves(vertices, interrupt);
     tbb::enumerable_thread_specific<TileFlipper> flippers(
-        [&] { return TileFlipper(vertices, version >= 2); });
+        [&] { return TileFlipper(vertices, farMoves, version >= 2); });
     parallelRanges(tiles, interrupt, [&](std::int64_t begin, std::int64_t end) {
         TileFlipper& flipper = flippers.local();
         for (std::int64_t t = begin; t < end; ++t) parts[t] = flipper.flip(TileRef(t));

@@ -68,7 +68,6 @@ void chooseActiveSlices(const LocalVertices& vertices, const std::vector<LocalOc
 /// @brief Algorithm 5 with the last resort of section 6.2.2.
 /// @details The slice is the one whose new edge ends where v2 moves away from: A in case 1, B in case 2 of
 /// Figure 10.
-ExtraFlip chooseExtraSlice(const LocalVertices& vertices, const Destinations& destinations,
-                           const LocalOctahedron& octahedron);
+ExtraFlip chooseExtraSlice(const LocalVertices& vertices, const LocalOctahedron& octahedron);
 
 } // namespace vdbtet

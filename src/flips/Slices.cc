@@ -38,10 +38,10 @@ struct ActiveBatch {
     double minCos[2][kLanes], maxCos[2][kLanes], minVolume[2][kLanes];
 
     void set(int lane, const LocalVertices& vertices, const LocalOctahedron& octahedron) {
-        const int end = vertices.state(octahedron[1]) == State::Inside ? 1 : 0;
+        const int end = vertices.interior(octahedron[1]) ? 1 : 0;
         side[lane] = end == 1 ? 1.0 : -1.0;
         for (int v = 0; v < 5; ++v) {
-            const Vec3d& position = vertices.position(octahedron[v == 0 ? end : v + 1]);
+            const Vec3d position = vertices.position(octahedron[v == 0 ? end : v + 1]);
             for (int axis = 0; axis < 3; ++axis) at[v][axis][lane] = position[axis];
         }
     }
@@ -88,17 +88,17 @@ SliceQuality sliceQuality(const LocalVertices& vertices, const LocalOctahedron& 
     for (const auto& tet : bcc::kSliceTets[slice]) {
         int manifold = 0;
         bool outside = false;
-        const Vec3d* p[4];
+        Vec3d p[4];
         for (int i = 0; i < 4; ++i) {
             const int local = octahedron[tet[i]];
-            p[i] = &vertices.position(local);
+            p[i] = vertices.position(local);
             manifold += vertices.manifold(local);
             outside = outside || vertices.state(local) == State::Outside;
         }
         if (outside || manifold == 4) continue;
         // An inverted tet can show fine angles by the unsigned formula.
-        if (signedVolume6(*p[0], *p[1], *p[2], *p[3]) <= 0.0) quality.inverted = true;
-        for (double cosine : dihedralCosines(*p[0], *p[1], *p[2], *p[3])) {
+        if (signedVolume6(p[0], p[1], p[2], p[3]) <= 0.0) quality.inverted = true;
+        for (double cosine : dihedralCosines(p[0], p[1], p[2], p[3])) {
             quality.minCos = std::min(quality.minCos, cosine);
             quality.maxCos = std::max(quality.maxCos, cosine);
         }
