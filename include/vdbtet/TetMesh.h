@@ -16,7 +16,7 @@ struct TetMesh final : MeshSink {
     std::vector<Tet> tets;              ///< indices into points, positively oriented
 
     bool begin(const MeshTotals& totals) override;
-    void chunk(const MeshChunk&) override {} // it was made in place
+    void chunk(const MeshChunk& chunk) override;
     void end() override {}
     bool concurrent() const override { return true; }
     ChunkMemory memory(std::int64_t firstPoint, std::int64_t firstTet) override;

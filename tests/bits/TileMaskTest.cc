@@ -1,8 +1,8 @@
-/// Shifts and ranks of tile masks against one bit at a time.
+/// Ranks, shifts and padding of tile masks against one bit at a time.
 #include "support/Catch.h"
 #include "support/Fixtures.h"
 
-#include "bits/TileMask.h"
+#include "bits/PaddedMask.h"
 
 #include <vector>
 
@@ -55,10 +55,11 @@ TEST_CASE("forEach visits the set bits in ascending order", "[bits]") {
 
 TEST_CASE("a shifted mask reads the neighbours' bits", "[bits]") {
     const auto masks = randomMasks(3);
+    const PaddedMask padded(around(masks));
     for (int dx = -1; dx <= 1; ++dx) {
         for (int dy = -1; dy <= 1; ++dy) {
             for (int dz = -1; dz <= 1; ++dz) {
-                const TileMask shifted = around(masks).shifted(dx, dy, dz);
+                const TileMask shifted = padded.shifted(dx, dy, dz);
                 for (int n = 0; n < TileMask::kSize; ++n) {
                     const int x = n >> 6, y = n >> 3 & 7, z = n & 7;
                     if (shifted.test(n) == bitAt(masks, x + dx, y + dy, z + dz)) continue;
@@ -69,14 +70,34 @@ TEST_CASE("a shifted mask reads the neighbours' bits", "[bits]") {
     }
 }
 
-TEST_CASE("a padded row reads one bit of each neighbour", "[bits]") {
+TEST_CASE("a padded mask has the tile and one bit of each neighbour", "[bits]") {
     const auto masks = randomMasks(4);
+    const PaddedMask padded(around(masks));
+    std::vector<int> expected, visited;
     for (int x = -1; x <= 8; ++x) {
         for (int y = -1; y <= 8; ++y) {
-            unsigned expected = 0;
-            for (int z = -1; z <= 8; ++z) expected |= unsigned(bitAt(masks, x, y, z)) << (z + 1);
-            REQUIRE(around(masks).row(x, y) == expected);
+            for (int z = -1; z <= 8; ++z) {
+                const int n = PaddedMask::bit(x, y, z);
+                REQUIRE(PaddedMask::x(n) == x);
+                REQUIRE(PaddedMask::y(n) == y);
+                REQUIRE(PaddedMask::z(n) == z);
+                REQUIRE(padded.test(n) == bitAt(masks, x, y, z));
+                if (padded.test(n)) expected.push_back(n);
+            }
         }
+    }
+    padded.forEach([&](int n) { visited.push_back(n); });
+    REQUIRE(visited == expected);
+    REQUIRE(padded.count() == int(expected.size()));
+}
+
+TEST_CASE("a padded mask moves down along each axis", "[bits]") {
+    const PaddedMask padded(around(randomMasks(5)));
+    for (int axis = 0; axis < 3; ++axis) {
+        const int step = PaddedMask::step(axis == 0, axis == 1, axis == 2);
+        const PaddedMask moved = padded.movedDown(step);
+        for (int n = 0; n < TileMask::kSize; ++n)
+            REQUIRE(moved.test(PaddedMask::bit(n)) == padded.test(PaddedMask::bit(n) + step));
     }
 }
 

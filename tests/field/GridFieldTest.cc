@@ -2,8 +2,11 @@
 #include "support/Catch.h"
 #include "support/Fixtures.h"
 
+#include "support/Stages.h"
+
 #include "field/GridField.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -13,19 +16,22 @@ using openvdb::Coord;
 
 namespace {
 
-/// @return whether the field has one sign on a tile and on all lattice neighbours of its vertices.
+/// @return whether the field has one sign on the octahedra that a tile owns and on all ends of their edges: the
+/// vertices of L_A at -1 to 9 and of L_B at -1 to 8.
 bool isUniform(Field::Sampler& sampler, const Coord& tile) {
     std::vector<TileSigns> signs;
-    for (int slot = 0; slot < 27; ++slot) {
-        signs.push_back(sampler.signs(tile.offsetBy(slot / 9 - 1, slot / 3 % 3 - 1, slot % 3 - 1)));
-    }
+    for (int slot = 0; slot < 27; ++slot)
+        signs.push_back(signsOf(sampler, tile.offsetBy(slot / 9 - 1, slot / 3 % 3 - 1, slot % 3 - 1)));
     const bool sign = signs[13][bcc::A].test(0);
     for (int lattice = 0; lattice < 2; ++lattice) {
-        MasksAround around;
-        for (int slot = 0; slot < 27; ++slot) around.masks[slot] = &signs[slot][lattice];
-        for (int slot = 0; slot < 27; ++slot) {
-            const TileMask shifted = around.shifted(slot / 9 - 1, slot / 3 % 3 - 1, slot % 3 - 1);
-            if (shifted != TileMask::filled(sign)) return false;
+        const int last = lattice == bcc::A ? 9 : 8;
+        for (int x = -1; x <= last; ++x) {
+            for (int y = -1; y <= last; ++y) {
+                for (int z = -1; z <= last; ++z) {
+                    const int slot = neighbourSlot(tileStep(x), tileStep(y), tileStep(z));
+                    if (signs[slot][lattice].test(TileMask::bit(x & 7, y & 7, z & 7)) != sign) return false;
+                }
+            }
         }
     }
     return true;
@@ -98,39 +104,52 @@ TEST_CASE("sampling voxels and sampling points agree", "[field]") {
     VoxelSampler<openvdb::FloatGrid> voxels(*grid, level);
     TrilinearSampler<openvdb::FloatGrid> points(*grid, frame, level);
     const openvdb::CoordBBox box(Coord(-2), Coord(1));
-    int cuts = 0;
+    size_t cuts = 0;
     for (auto it = box.begin(); it; ++it) {
-        const TileSigns signs = voxels.signs(*it);
-        REQUIRE(signs == points.signs(*it));
-        // Any edge between two vertices of the tile will do.
-        MasksAround inB;
-        const TileMask none;
-        inB.masks.fill(&none);
-        inB.masks[13] = &signs[bcc::B];
-        EdgeMasks cut{};
-        const int d = 7; // toward +x +y +z, which stays in the tile
-        const bcc::Step step = bcc::shortEdge(bcc::A, d);
-        cut[d] = signs[bcc::A] ^ inB.shifted(step.x, step.y, step.z);
-        const EdgeMasks near = voxels.nearerToA(*it, cut);
-        REQUIRE(near == points.nearerToA(*it, cut));
-        std::vector<float> a(near[d].count()), b(a.size());
-        voxels.cutPoints(*it, bcc::A, near, a.data());
-        points.cutPoints(*it, bcc::A, near, b.data());
-        for (size_t i = 0; i < a.size(); ++i) {
-            REQUIRE(std::abs(a[i] - b[i]) < 1e-6f);
-            REQUIRE(a[i] >= 0.0f);
-            REQUIRE(a[i] <= 0.5f);
+        PaddedMask a, b, a2, b2;
+        voxels.signs(*it, a, b);
+        points.signs(*it, a2, b2);
+        REQUIRE((a.core() == a2.core() && b.core() == b2.core()));
+        std::vector<ShortEdge> edges[2]; // by the lattice of the nearer end
+        for (int d = 0; d < bcc::kDirections; ++d) {
+            const bcc::Step step = bcc::shortEdge(bcc::A, d);
+            const int toB = PaddedMask::step(step.x, step.y, step.z);
+            std::vector<ShortEdge> cut;
+            for (int n = 0; n < TileMask::kSize; ++n) {
+                const int vertex = PaddedMask::bit(n);
+                if (a.test(vertex) != b.test(vertex + toB))
+                    cut.push_back({std::uint16_t(vertex), std::uint16_t(d)});
+            }
+            std::vector<std::uint8_t> nearer(cut.size()), nearer2(cut.size());
+            voxels.nearerToA(*it, cut, nearer.data());
+            points.nearerToA(*it, cut, nearer2.data());
+            REQUIRE(nearer == nearer2);
+            for (size_t i = 0; i < cut.size(); ++i) {
+                const ShortEdge back{std::uint16_t(cut[i].vertex + toB), std::uint16_t(bcc::opposite(d))};
+                nearer[i] ? edges[bcc::A].push_back(cut[i]) : edges[bcc::B].push_back(back);
+            }
+            cuts += cut.size();
         }
-        EdgeMasks far{};
-        far[bcc::opposite(d)] = cut[d] & ~near[d];
-        a.resize(far[bcc::opposite(d)].count());
-        b.resize(a.size());
-        voxels.cutPoints(*it, bcc::B, far, a.data());
-        points.cutPoints(*it, bcc::B, far, b.data());
-        for (size_t i = 0; i < a.size(); ++i) REQUIRE(std::abs(a[i] - b[i]) < 1e-6f);
-        cuts += cut[d].count();
+        for (bcc::Lattice lattice : {bcc::A, bcc::B}) {
+            // A sampler is asked for edges from the tile's own vertices.
+            auto& own = edges[lattice];
+            own.erase(std::remove_if(own.begin(), own.end(),
+                                     [](const ShortEdge& e) {
+                                         return std::min({PaddedMask::x(e.vertex), PaddedMask::y(e.vertex),
+                                                          PaddedMask::z(e.vertex)}) < 0;
+                                     }),
+                      own.end());
+            std::vector<float> one(own.size()), two(own.size());
+            voxels.cutPoints(*it, lattice, own, one.data());
+            points.cutPoints(*it, lattice, own, two.data());
+            for (size_t i = 0; i < one.size(); ++i) {
+                REQUIRE(std::abs(one[i] - two[i]) < 1e-6f);
+                REQUIRE(one[i] >= 0.0f);
+                REQUIRE(one[i] <= 0.5f);
+            }
+        }
     }
-    REQUIRE(cuts > 100);
+    REQUIRE(cuts > 1000);
 }
 
 TEST_CASE("the root finder stays in its bracket and meets hard functions", "[field]") {

@@ -22,6 +22,9 @@ public:
         mLayout.surfaceTiles = {openvdb::Coord(0)};
         mLayout.spans = {{openvdb::Coord(0), 1, 0}};
         mLayout.columns = {{0, 0, 0, 1}};
+        mLayout.neighbours.resize(1);
+        mLayout.neighbours[0].fill(kOutside);
+        mLayout.neighbours[0][neighbourSlot(0, 0, 0)] = 0;
         mSigns[0].fill(TileMask::filled(true));
         mOctahedron = localOctahedron(lattice, axis, localIndex(lattice, 3, 3, 3));
     }
@@ -31,7 +34,7 @@ public:
     /// Make a vertex manifold, moving in @a direction by the fraction @a alpha of a short edge.
     void setMove(int number, int direction, double alpha) { mMoves[number] = {direction, alpha}; }
 
-    Vec3d home(int number) const { return LocalVertices::home(mOctahedron[number]); }
+    Vec3d home(int number) const { return homeOf(mOctahedron[number]); }
 
     /// The direction of the short edge from vertex @a from to @a to, or parallel to it.
     int direction(int from, int to) const {
@@ -51,20 +54,21 @@ public:
         }
         std::sort(order.begin(), order.end(), [&](int a, int b) { return mOctahedron[a] < mOctahedron[b]; });
         mDestinations = {};
-        mDestinations.first.push_back({0, mLabels.manifold[0][bcc::A].count()});
+        const std::int64_t inA = mLabels.manifold[0][bcc::A].count(), all = std::int64_t(order.size());
+        mDestinations.first = {{0, inA}, {all, all}};
         for (int number : order) {
             mDestinations.directions.push_back(std::uint8_t(mMoves[number].direction));
             mDestinations.distances.push_back(float(mMoves[number].alpha));
         }
-        mLocal.load({mLayout, mSigns, mLabels, mDestinations}, 0);
+        mLocal.load(0);
         return mLocal;
     }
 
 private:
-    int lattice(int number) const { return mOctahedron[number] / 1000; }
+    int lattice(int number) const { return latticeOf(mOctahedron[number]); }
     int bit(int number) const {
-        const int n = mOctahedron[number] % 1000;
-        return TileMask::bit(n / 100 - 1, n / 10 % 10 - 1, n % 10 - 1);
+        const int n = bitOf(mOctahedron[number]);
+        return TileMask::bit(PaddedMask::x(n), PaddedMask::y(n), PaddedMask::z(n));
     }
 
     struct Move {
@@ -78,7 +82,8 @@ private:
     Destinations mDestinations;
     LocalOctahedron mOctahedron;
     std::array<Move, 6> mMoves;
-    LocalVertices mLocal;
+    Vertices mVertices{mLayout, mSigns, mLabels, mDestinations};
+    LocalVertices mLocal{mVertices};
 };
 
 struct Angles {
@@ -86,8 +91,8 @@ struct Angles {
     bool inverted = false;
 
     void add(const LocalVertices& local, const LocalOctahedron& o, const int (&tet)[4]) {
-        const Vec3d &a = local.position(o[tet[0]]), &b = local.position(o[tet[1]]),
-                    &c = local.position(o[tet[2]]), &d = local.position(o[tet[3]]);
+        const Vec3d a = local.position(o[tet[0]]), b = local.position(o[tet[1]]),
+                    c = local.position(o[tet[2]]), d = local.position(o[tet[3]]);
         inverted = inverted || signedVolume6(a, b, c, d) <= 0.0;
         for (double angle : dihedralAngles(a, b, c, d)) {
             min = std::min(min, angle);
@@ -128,6 +133,13 @@ struct Figure {
         return ((pair + (figureCase == 1 ? 2 : 3)) % 2 == 0) ? bcc::SliceA : bcc::SliceB;
     }
 };
+
+bcc::Slice chooseActiveSlice(const LocalVertices& local, const LocalOctahedron& octahedron) {
+    std::vector<bcc::Slice> slices;
+    chooseActiveSlices(local, {octahedron}, slices);
+    REQUIRE(slices.size() == 1);
+    return slices[0];
+}
 
 template <typename Visit>
 void forEachFigure(Visit&& visit) {
@@ -284,16 +296,16 @@ TEST_CASE("a tet of at most three moving vertices keeps the bound, and two tripl
     for (int directions = 0; directions < 512; ++directions) {
         double tripleMin = 180.0, tripleMax = 0.0;
         for (int lengths = 0; lengths < 8; ++lengths) {
-            Vec3d p[4] = {LocalVertices::home(o[tet[0]]), {}, {}, {}};
+            Vec3d p[4] = {homeOf(o[tet[0]]), {}, {}, {}};
             bool valid = true;
             for (int i = 0; i < 3; ++i) {
                 const int d = directions >> (3 * i) & 7;
                 const double alpha = (lengths >> i & 1) ? 0.5 : 0.0;
                 const Vec3d edge(0.5 * bcc::sign(d, 0), 0.5 * bcc::sign(d, 1), 0.5 * bcc::sign(d, 2));
-                const Vec3d home = LocalVertices::home(o[moving[i]]);
+                const Vec3d home = homeOf(o[moving[i]]);
                 p[i + 1] = home + alpha * edge;
                 for (int j = 0; j < 3; ++j) {
-                    if (alpha > 0.0 && home + edge == LocalVertices::home(o[moving[j]])) valid = false;
+                    if (alpha > 0.0 && home + edge == homeOf(o[moving[j]])) valid = false;
                 }
             }
             if (!valid) continue;

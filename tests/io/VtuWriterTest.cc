@@ -25,19 +25,24 @@ MeshTotals totalsOf(std::int64_t tets, bool float32) {
     return totals;
 }
 
-MeshChunk chunkOf(std::int64_t firstTet, std::int64_t tets) {
-    MeshChunk chunk;
-    chunk.firstTet = firstTet;
-    chunk.firstPoint = 4 * firstTet;
+/// Hand the tets [firstTet, firstTet + tets) to a sink.
+void give(MeshSink& sink, std::int64_t firstTet, std::int64_t tets) {
+    std::vector<openvdb::Vec3d> points;
+    std::vector<Tet> ids;
     for (std::int64_t i = firstTet; i < firstTet + tets; ++i) {
         const auto x = double(i);
         for (const auto& p : {openvdb::Vec3d(x, 0, 0), openvdb::Vec3d(x + 1, 0, 0), openvdb::Vec3d(x, 1, 0),
                               openvdb::Vec3d(x, 0, 1)}) {
-            chunk.points.push_back(p);
+            points.push_back(p);
         }
-        chunk.tets.push_back({4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3});
+        ids.push_back({4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3});
     }
-    return chunk;
+    MeshChunk chunk;
+    chunk.firstTet = firstTet;
+    chunk.firstPoint = 4 * firstTet;
+    chunk.points = {points.data(), points.size()};
+    chunk.tets = {ids.data(), ids.size()};
+    sink.chunk(chunk);
 }
 
 std::string contents(const std::string& path) {
@@ -60,13 +65,29 @@ TEST_CASE("a vtu file has the size announced") {
             VtuWriter writer(folder.file("mesh.vtu"));
             CHECK(writer.begin(totals));
             const std::int64_t some = tets / 2;
-            writer.chunk(chunkOf(0, some));
-            writer.chunk(chunkOf(some, tets - some));
+            give(writer, 0, some);
+            give(writer, some, tets - some);
             writer.end();
             CHECK(std::filesystem::file_size(folder.file("mesh.vtu")) == VtuWriter::fileSize(totals));
         }
     }
     CHECK(filesIn(folder) == 1);
+}
+
+TEST_CASE("a vtu file does not depend on the order of its chunks") {
+    const TempFolder folder;
+    const MeshTotals totals = totalsOf(1000, true);
+    const std::vector<std::int64_t> begins = {0, 1, 300, 999};
+    for (const bool backwards : {false, true}) {
+        VtuWriter writer(folder.file(backwards ? "b.vtu" : "a.vtu"));
+        writer.begin(totals);
+        for (std::size_t i = 0; i < begins.size(); ++i) {
+            const std::size_t k = backwards ? begins.size() - 1 - i : i;
+            give(writer, begins[k], (k + 1 < begins.size() ? begins[k + 1] : totals.tets) - begins[k]);
+        }
+        writer.end();
+    }
+    CHECK(contents(folder.file("a.vtu")) == contents(folder.file("b.vtu")));
 }
 
 TEST_CASE("indices of a vtu file take 64 bits only where 32 are too few") {
@@ -91,18 +112,18 @@ TEST_CASE("the old vtu file stands until the new one is whole") {
     SECTION("a run that ends early") {
         VtuWriter writer(path);
         writer.begin(totalsOf(10, true));
-        writer.chunk(chunkOf(0, 5));
+        give(writer, 0, 5);
     }
     SECTION("fewer tets than announced") {
         VtuWriter writer(path);
         writer.begin(totalsOf(10, true));
-        writer.chunk(chunkOf(0, 5));
+        give(writer, 0, 5);
         CHECK_THROWS_AS(writer.end(), FileError);
     }
     SECTION("more tets than announced") {
         VtuWriter writer(path);
         writer.begin(totalsOf(10, true));
-        CHECK_THROWS_AS(writer.chunk(chunkOf(0, 11)), FileError);
+        CHECK_THROWS_AS(give(writer, 0, 11), FileError);
     }
     CHECK(contents(path) == "old");
     CHECK(filesIn(folder) == 1);

@@ -21,10 +21,10 @@ struct Graph {
     int edges = 0;
 
     explicit Graph(const Stages& stages) {
-        for (TileRef t = 0; t < TileRef(stages.layout.surfaceCount()); ++t) {
+        for (TileRef t : stages.cuts.arrows.tiles) {
             const auto& tile = stages.layout.surfaceTiles[t];
             for (bcc::Lattice lattice : {bcc::A, bcc::B}) {
-                const EdgeMasks leaving = stages.arrows.leaving(t, stages.layout.neighbours(t), lattice);
+                const EdgeMasks& leaving = (*stages.cuts.arrows.of[t])[lattice];
                 for (int d = 0; d < bcc::kDirections; ++d) {
                     const bcc::Step step = bcc::shortEdge(lattice, d);
                     leaving[d].forEach([&](int n) {
@@ -81,7 +81,7 @@ void requireKernel(const openvdb::FloatGrid& grid, double voxels, std::uint64_t 
     const Stages stages(grid, voxels);
     const Graph graph(stages);
     REQUIRE(graph.edges > 0);
-    REQUIRE(graph.edges == stages.arrows.cutEdges());
+    REQUIRE(graph.edges == stages.cuts.arrows.cutEdges);
 
     std::vector<Graph::Key> order;
     for (const auto& entry : graph.to) order.push_back(entry.first);

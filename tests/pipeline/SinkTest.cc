@@ -1,4 +1,4 @@
-// What a sink may rely on: exact totals, then chunks in order, and its own exceptions.
+// What a sink may rely on: exact totals, then chunks in order or wherever it says, and its own exceptions.
 #include "support/Catch.h"
 #include "support/Fixtures.h"
 #include "support/MemoryLimit.h"
@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <stdexcept>
 
@@ -44,6 +45,46 @@ struct StrictSink final : MeshSink {
     std::int64_t points = 0, tets = 0, outOfRange = 0, chunks = 0;
     std::size_t largest = 0;
     int begins = 0, ends = 0;
+};
+
+/// Takes chunks from any thread in any order, into memory of its own that may begin anywhere.
+struct ConcurrentSink final : MeshSink {
+    /// @param at  offset of the tets in their memory, bytes; a multiple of 8
+    explicit ConcurrentSink(std::size_t at) : offset(at) {}
+
+    bool begin(const MeshTotals& announced) override {
+        points.resize(std::size_t(announced.points));
+        bytes.resize(std::size_t(announced.tets) * sizeof(Tet) + offset);
+        return true;
+    }
+    void chunk(const MeshChunk& chunk) override {
+        inPlace = inPlace && chunk.points.data() == points.data() + chunk.firstPoint &&
+                  chunk.tets.data() == tets() + chunk.firstTet;
+        pointsSeen += std::int64_t(chunk.points.size());
+        tetsSeen += std::int64_t(chunk.tets.size());
+    }
+    void end() override {}
+    bool concurrent() const override { return true; }
+    ChunkMemory memory(std::int64_t firstPoint, std::int64_t firstTet) override {
+        return {points.data() + firstPoint, tets() + firstTet};
+    }
+    Tet* tets() { return reinterpret_cast<Tet*>(bytes.data() + offset); }
+
+    std::size_t offset;
+    std::vector<openvdb::Vec3d> points;
+    std::vector<char> bytes;
+    std::atomic<bool> inPlace{true};
+    std::atomic<std::int64_t> pointsSeen{0}, tetsSeen{0};
+};
+
+/// Takes chunks from any thread in any order, from memory of the mesher's.
+struct CopyingSink final : MeshSink {
+    bool begin(const MeshTotals& totals) override { return mesh.begin(totals); }
+    void chunk(const MeshChunk& chunk) override { mesh.chunk(chunk); }
+    void end() override {}
+    bool concurrent() const override { return true; }
+
+    TetMesh mesh;
 };
 
 struct Refusal : std::runtime_error {
@@ -146,6 +187,22 @@ TEST_CASE("a sink's exception reaches the caller") {
         if (where == Where::FirstChunk) CHECK(sink.chunks == 1);
         if (where == Where::LaterChunk) CHECK(sink.chunks == 3);
     }
+}
+
+TEST_CASE("a concurrent sink gets the same mesh, made where it says") {
+    const Meshed whole = meshOf(*manyTiles());
+    for (const std::size_t offset : {0, 8}) {
+        ConcurrentSink sink(offset);
+        volumeToTets(*manyTiles(), sink);
+        CHECK(sink.inPlace);
+        CHECK(sink.pointsSeen == whole.report.points);
+        CHECK(sink.tetsSeen == whole.report.tets);
+        CHECK(sink.points == whole.mesh.points);
+        CHECK(std::equal(whole.mesh.tets.begin(), whole.mesh.tets.end(), sink.tets()));
+    }
+    CopyingSink sink;
+    volumeToTets(*manyTiles(), sink);
+    requireIdentical(sink.mesh, whole.mesh);
 }
 
 TEST_CASE("a mesh in memory can be filled again") {

@@ -16,17 +16,24 @@ namespace vdbtet::test {
 struct Stages {
     Interrupt interrupt{nullptr};
     GridField<openvdb::FloatGrid> field;
-    std::vector<TileSigns> signs;
+    std::vector<openvdb::Coord> tiles;
+    Cuts cuts;
     Layout layout;
-    Arrows arrows;
     Labels labels;
 
     explicit Stages(const openvdb::FloatGrid& grid, double voxels = 1.0)
         : field(grid, makeFrame(grid.transform(), voxels * shortestVoxelEdge(grid.transform())),
                 Level{0.0, true}),
-          signs(findSigns(field, field.surfaceTiles(1 << 20, interrupt), interrupt)),
-          layout(makeLayout(field.surfaceTiles(1 << 20, interrupt), signs)),
-          arrows(field, layout, signs, interrupt), labels(labelVertices(layout, arrows, interrupt)) {}
+          tiles(field.surfaceTiles(1 << 20, interrupt)), cuts(findCuts(field, tiles, interrupt)),
+          layout(makeLayout(tiles, cuts.signs, interrupt)),
+          labels(labelVertices(layout, cuts.arrows, interrupt)) {}
 };
+
+/// The inside vertices of a tile.
+inline TileSigns signsOf(Field::Sampler& sampler, const openvdb::Coord& tile) {
+    PaddedMask a, b;
+    sampler.signs(tile, a, b);
+    return {a.core(), b.core()};
+}
 
 } // namespace vdbtet::test

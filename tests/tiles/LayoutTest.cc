@@ -27,7 +27,7 @@ TEST_CASE("runs of interior tiles fill what the surface encloses", "[tiles]") {
                 continue;
             }
             ++interior;
-            const auto signs = stages.field.sampler()->signs(tile);
+            const TileSigns signs = signsOf(*stages.field.sampler(), tile);
             REQUIRE(signs[bcc::A].full());
             REQUIRE(signs[bcc::B].full());
         }
@@ -38,7 +38,11 @@ TEST_CASE("runs of interior tiles fill what the surface encloses", "[tiles]") {
         for (int slot = 0; slot < 27; ++slot) {
             const auto found =
                 spanOf.find(entry.first.offsetBy(slot / 9 - 1, slot / 3 % 3 - 1, slot % 3 - 1));
-            REQUIRE(around[slot] == (found == spanOf.end() ? -1 : found->second));
+            const std::int64_t span = found == spanOf.end() ? -1 : found->second;
+            REQUIRE(around[slot] == span);
+            const TileRef surface = layout.spans[entry.second].surface;
+            if (surface < 0) continue;
+            REQUIRE(layout.neighbours[surface][slot] == (span < 0 ? kOutside : layout.spans[span].surface));
         }
     }
 }
@@ -46,13 +50,15 @@ TEST_CASE("runs of interior tiles fill what the surface encloses", "[tiles]") {
 TEST_CASE("a column that starts inside is refused", "[tiles]") {
     std::vector<TileSigns> signs(1);
     signs[0].fill(TileMask::filled(true));
-    REQUIRE_THROWS_AS(makeLayout({Coord(0)}, signs), UnboundedInside);
+    Interrupt interrupt(nullptr);
+    REQUIRE_THROWS_AS(makeLayout({Coord(0)}, signs, interrupt), UnboundedInside);
 }
 
 TEST_CASE("a column that ends inside is refused", "[tiles]") {
     std::vector<TileSigns> signs(1);
     signs[0][bcc::A].set(TileMask::bit(0, 0, 7));
-    REQUIRE_THROWS_AS(makeLayout({Coord(0)}, signs), UnboundedInside);
+    Interrupt interrupt(nullptr);
+    REQUIRE_THROWS_AS(makeLayout({Coord(0)}, signs, interrupt), UnboundedInside);
 }
 
 } // namespace vdbtet::test

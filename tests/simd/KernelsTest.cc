@@ -1,0 +1,199 @@
+/// Every instruction set gives the same bytes.
+#include "support/Catch.h"
+#include "support/Fixtures.h"
+#include "support/Stages.h"
+
+#include "destinations/Destinations.h"
+#include "field/VoxelBlock.h"
+#include "flips/Flips.h"
+#include "quality/AngleSum.h"
+
+#include <cstring>
+
+namespace vdbtet::test {
+
+namespace {
+
+std::vector<Isa> vectorSets() {
+    std::vector<Isa> sets;
+    for (Isa isa : {Isa::Avx2, Isa::Avx512}) {
+        if (supports(isa)) sets.push_back(isa);
+    }
+    if (sets.empty()) WARN("no vector instructions here: only the plain path is tested");
+    return sets;
+}
+
+/// Values near a plane with noise of any scale, exact zeros among them.
+std::vector<float> voxels(Random& random, double noise) {
+    std::vector<float> values(27 * 512);
+    for (auto& value : values) {
+        value = float(random.uniform(-1.0, 1.0) * noise);
+        if (random.next() % 64 == 0) value = 0.0f;
+    }
+    return values;
+}
+
+template <typename T>
+bool sameBytes(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+struct BlockResult {
+    PaddedMask a, b;
+    std::vector<std::uint8_t> nearer;
+    std::vector<float> distances[2];
+
+    BlockResult(const std::vector<float>& values, const Level& level, Isa isa) {
+        std::array<const float*, 27> leaves;
+        for (int slot = 0; slot < 27; ++slot) leaves[slot] = values.data() + 512 * slot;
+        VoxelBlock block(isa);
+        block.load(leaves, level);
+        block.signs(a, b);
+        std::vector<ShortEdge> edges, nearEdges[2];
+        for (int d = 0; d < bcc::kDirections; ++d) {
+            const bcc::Step step = bcc::shortEdge(bcc::A, d);
+            const int toB = PaddedMask::step(step.x, step.y, step.z);
+            for (int n = 0; n < TileMask::kSize; ++n) {
+                const int vertex = PaddedMask::bit(n);
+                if (a.test(vertex) != b.test(vertex + toB))
+                    edges.push_back({std::uint16_t(vertex), std::uint16_t(d)});
+            }
+        }
+        nearer.resize(edges.size());
+        block.nearerToA(edges, nearer.data());
+        for (size_t i = 0; i < edges.size(); ++i) {
+            const ShortEdge& e = edges[i];
+            const bcc::Step step = bcc::shortEdge(bcc::A, e.direction);
+            const int end = e.vertex + PaddedMask::step(step.x, step.y, step.z);
+            if (nearer[i]) {
+                nearEdges[bcc::A].push_back(e);
+            } else if (std::min({PaddedMask::x(end), PaddedMask::y(end), PaddedMask::z(end)}) >= 0) {
+                nearEdges[bcc::B].push_back({std::uint16_t(end), std::uint16_t(bcc::opposite(e.direction))});
+            }
+        }
+        for (bcc::Lattice lattice : {bcc::A, bcc::B}) {
+            distances[lattice].resize(nearEdges[lattice].size());
+            block.cutPoints(lattice, nearEdges[lattice], distances[lattice].data());
+        }
+    }
+};
+
+} // namespace
+
+TEST_CASE("signs and cut points are the same on every instruction set", "[simd]") {
+    Random random(1);
+    const std::vector<Isa> sets = vectorSets();
+    for (const double noise : {1.0, 1e-6, 1e30}) {
+        for (const bool below : {false, true}) {
+            const std::vector<float> values = voxels(random, noise);
+            const BlockResult plain(values, Level{0.1 * noise, below}, Isa::Plain);
+            REQUIRE(plain.nearer.size() > 1000);
+            REQUIRE(plain.distances[bcc::A].size() > 300);
+            REQUIRE(plain.distances[bcc::B].size() > 300);
+            for (Isa isa : sets) {
+                const BlockResult other(values, Level{0.1 * noise, below}, isa);
+                REQUIRE(other.a.core() == plain.a.core());
+                REQUIRE(other.b.core() == plain.b.core());
+                REQUIRE(other.nearer == plain.nearer);
+                for (int lattice = 0; lattice < 2; ++lattice)
+                    REQUIRE(sameBytes(other.distances[lattice], plain.distances[lattice]));
+            }
+        }
+    }
+}
+
+TEST_CASE("cut points in lanes are those of the root finder", "[simd]") {
+    Random random(2);
+    CutEdges edges;
+    std::vector<float> expected, found(CutEdges::kLanes);
+    for (const bool nearIsB : {false, true}) {
+        for (int batch = 0; batch < 50; ++batch) {
+            edges.count = 0;
+            expected.clear();
+            while (edges.count < 1 + batch % CutEdges::kLanes) {
+                double p[8];
+                for (int i = 0; i < 8; ++i) edges.corners[i][edges.count] = p[i] = random.uniform(-1.0, 1.0);
+                const Diagonal phi = Diagonal::of(p);
+                const double near = nearIsB ? centreValue(p) : p[0];
+                edges.near[edges.count] = near;
+                expected.push_back(distanceToCut(near, [&](double s) { return phi(nearIsB ? 1.0 - s : s); }));
+                ++edges.count;
+            }
+            found.resize(expected.size());
+            distancesToCuts(edges, nearIsB, found.data(), bestIsa());
+            REQUIRE(sameBytes(found, expected));
+        }
+    }
+}
+
+TEST_CASE("angles are summed up the same on every instruction set", "[simd]") {
+    for (int tets : {1, 63, 64, 65, 1000}) {
+        const auto sum = [tets](Isa isa) {
+            Random random(3);
+            AngleSum angles(isa);
+            for (int i = 0; i < tets; ++i) {
+                Vec3d p[4];
+                for (auto& v : p) v = random.inBox(-1, 1);
+                angles.add(p[0], p[1], p[2], p[3]);
+            }
+            return angles.stats();
+        };
+        const AngleStats plain = sum(Isa::Plain);
+
+        Random random(3);
+        AngleStats expected;
+        for (int i = 0; i < tets; ++i) {
+            Vec3d p[4];
+            for (auto& v : p) v = random.inBox(-1, 1);
+            for (double angle : dihedralAngles(p[0], p[1], p[2], p[3])) {
+                expected.min = std::min(expected.min, angle);
+                expected.max = std::max(expected.max, angle);
+                ++expected.histogram[size_t(angle / 10.0)];
+            }
+        }
+        REQUIRE(plain.histogram == expected.histogram);
+        REQUIRE(plain.min == Approx(expected.min).margin(1e-6));
+        REQUIRE(plain.max == Approx(expected.max).margin(1e-6));
+        for (Isa isa : vectorSets()) {
+            const AngleStats other = sum(isa);
+            REQUIRE(other.min == plain.min);
+            REQUIRE(other.max == plain.max);
+            REQUIRE(other.histogram == plain.histogram);
+        }
+    }
+}
+
+TEST_CASE("slices are chosen the same on every instruction set", "[simd]") {
+    const auto grid = levelSet(noiseBall(3, Vec3d(0.0), 14.0, 3.0));
+    const Stages stages(*grid);
+    Interrupt interrupt(nullptr);
+    const Destinations destinations =
+        findDestinations(stages.field, stages.layout, stages.cuts.arrows, stages.labels, interrupt);
+    const Vertices vertices{stages.layout, stages.cuts.signs, stages.labels, destinations};
+    LocalVertices local(vertices);
+    std::size_t chosen = 0;
+    for (TileRef tile : stages.cuts.arrows.tiles) {
+        local.load(tile);
+        std::vector<LocalOctahedron> octahedra;
+        for (bcc::Lattice lattice : {bcc::A, bcc::B}) {
+            for (int axis = 0; axis < 3; ++axis) {
+                const PaddedMask &in = local.interiorMask(lattice), &on = local.manifoldMask(lattice);
+                const TileMask spines = (in.core() ^ in.shifted(axis == 0, axis == 1, axis == 2)) &
+                                        ~(on.core() | on.shifted(axis == 0, axis == 1, axis == 2));
+                spines.forEach([&](int n) {
+                    octahedra.push_back(localOctahedron(lattice, axis, localIndex(lattice, n)));
+                });
+            }
+        }
+        std::vector<bcc::Slice> plain, other;
+        chooseActiveSlices(local, octahedra, plain, Isa::Plain);
+        for (Isa isa : vectorSets()) {
+            chooseActiveSlices(local, octahedra, other, isa);
+            REQUIRE(other == plain);
+        }
+        chosen += plain.size();
+    }
+    REQUIRE(chosen > 100);
+}
+
+} // namespace vdbtet::test
