@@ -42,4 +42,12 @@ void parallelRanges(std::int64_t count, Interrupt& interrupt, Body&& body) {
                       });
 }
 
+/// The same for few and heavy items: call @a body(i) for each.
+template <typename Body>
+void parallelEach(std::int64_t count, Interrupt& interrupt, Body&& body) {
+    tbb::parallel_for(std::int64_t(0), count, [&](std::int64_t i) {
+        if (!interrupt.poll()) body(i);
+    });
+}
+
 } // namespace vdbtet

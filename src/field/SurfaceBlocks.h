@@ -127,12 +127,11 @@ using Coords = std::vector<openvdb::Coord>;
 template <typename TreeT>
 class ConstantFaces {
 public:
-    /// @throw TooLarge once there are more than kBlocksPerTile for each of @a maxTiles
-    ConstantFaces(const TreeT& tree, const Level& level, Coords& blocks, std::int64_t maxTiles)
-        : mAccessor(tree), mLevel(level), mBlocks(blocks), mMaxTiles(maxTiles),
-          mMaxBlocks(std::int64_t(blocks.size()) + kBlocksPerTile * maxTiles) {}
+    ConstantFaces(const TreeT& tree, const Level& level, std::int64_t maxTiles)
+        : mAccessor(tree), mLevel(level), mMaxTiles(maxTiles) {}
 
     /// @param tile  the voxels of a constant tile that is inside
+    /// @throw TooLarge once there are more than kBlocksPerTile for each of maxTiles
     void visit(const openvdb::CoordBBox& tile) {
         const int size = tile.dim().x();
         for (int slot = 0; slot < 27; ++slot) {
@@ -141,6 +140,13 @@ public:
             visitNeighbour(
                 tile, tile.min() + openvdb::Coord(size * step.x(), size * step.y(), size * step.z()), size);
         }
+    }
+
+    /// @return the blocks collected, each once.
+    const Coords& blocks() {
+        std::sort(mBlocks.begin(), mBlocks.end());
+        mBlocks.erase(std::unique(mBlocks.begin(), mBlocks.end()), mBlocks.end());
+        return mBlocks;
     }
 
 private:
@@ -209,15 +215,15 @@ private:
     void addBlocks(const openvdb::CoordBBox& voxels) {
         if (voxels.empty()) return;
         const openvdb::CoordBBox box(voxels.min() >> 3, voxels.max() >> 3);
-        if (std::int64_t(mBlocks.size()) + std::int64_t(box.volume()) > mMaxBlocks)
+        if (std::int64_t(mBlocks.size()) + std::int64_t(box.volume()) > kBlocksPerTile * mMaxTiles)
             throwTooManyTiles(mMaxTiles);
         for (auto it = box.begin(); it; ++it) mBlocks.push_back(*it);
     }
 
     openvdb::tree::ValueAccessor<const TreeT> mAccessor;
     Level mLevel;
-    Coords& mBlocks;
-    std::int64_t mMaxTiles, mMaxBlocks;
+    Coords mBlocks;
+    std::int64_t mMaxTiles;
 };
 
 /// @brief Call @a visit(block, mixed) for each block with cubes of mixed signs, some more than once, in any order.
@@ -249,17 +255,34 @@ void forEachSurfaceBlock(const TreeT& tree, const Level& level, std::int64_t max
         }
     });
 
-    Coords blocks;
-    ConstantFaces<TreeT> faces(tree, level, blocks, maxTiles);
-    auto tile = tree.cbeginValueAll();
-    tile.setMaxDepth(tile.getLeafDepth() - 1);
-    for (; tile; ++tile) {
-        if (level.phi(*tile) >= 0.0) faces.visit(tile.getBoundingBox());
-    }
-    parallelRanges(std::int64_t(blocks.size()), interrupt, [&](std::int64_t begin, std::int64_t end) {
+    // The constant tiles, those of leaf size by their parent nodes: there may be as many as voxels inside / 512.
+    using UpperT = typename TreeT::RootNodeType::ChildNodeType;
+    using LowerT = typename UpperT::ChildNodeType;
+    const auto addFaces = [&](ConstantFaces<TreeT>& faces, auto value, int size) {
+        for (; value; ++value) {
+            if (level.phi(*value) >= 0.0)
+                faces.visit(openvdb::CoordBBox::createCube(value.getCoord(), size));
+        }
+    };
+    const auto visitBlocks = [&](const Coords& blocks, std::int64_t begin, std::int64_t end) {
         BlockSigns<TreeT> signs(tree, level);
         for (std::int64_t b = begin; b < end; ++b) visit(signs, blocks[b]);
+    };
+    std::vector<const LowerT*> lower;
+    tree.getNodes(lower);
+    parallelEach(std::int64_t(lower.size()), interrupt, [&](std::int64_t n) {
+        ConstantFaces<TreeT> faces(tree, level, maxTiles);
+        addFaces(faces, lower[n]->cbeginValueAll(), int(TreeT::LeafNodeType::DIM));
+        visitBlocks(faces.blocks(), 0, std::int64_t(faces.blocks().size()));
     });
+    ConstantFaces<TreeT> faces(tree, level, maxTiles);
+    std::vector<const UpperT*> upper;
+    tree.getNodes(upper);
+    for (const UpperT* node : upper) addFaces(faces, node->cbeginValueAll(), int(LowerT::DIM));
+    addFaces(faces, tree.root().cbeginValueAll(), int(UpperT::DIM));
+    const Coords& blocks = faces.blocks();
+    parallelRanges(std::int64_t(blocks.size()), interrupt,
+                   [&](std::int64_t begin, std::int64_t end) { visitBlocks(blocks, begin, end); });
 }
 
 } // namespace vdbtet

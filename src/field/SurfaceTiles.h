@@ -31,16 +31,16 @@ public:
         if (mTiles.size() > mCompactAt) compact();
     }
 
-    /// @return the tiles in ascending order.
-    const Coords& compact() {
+    const Coords& tiles() const { return mTiles; }
+
+private:
+    void compact() {
         std::sort(mTiles.begin(), mTiles.end());
         mTiles.erase(std::unique(mTiles.begin(), mTiles.end()), mTiles.end());
         if (std::int64_t(mTiles.size()) > mLimit) throwTooManyTiles(mLimit);
         mCompactAt = 2 * mTiles.size() + kRoom;
-        return mTiles;
     }
 
-private:
     static constexpr size_t kRoom = 1 << 16;
 
     std::int64_t mLimit;
@@ -59,7 +59,8 @@ public:
         mOnVoxels ? addOnVoxels(block, mixed) : addAnywhere(block, mixed);
     }
 
-    const Coords& tiles() { return mTiles.compact(); }
+    /// Those found, some more than once.
+    const Coords& tiles() const { return mTiles.tiles(); }
 
 private:
     /// The block is a tile, and a cut edge has both its ends in the box of a mixed cube. So a cube matters to the
@@ -130,7 +131,7 @@ Coords tilesNearSurface(const TreeT& tree, const Frame& frame, const Level& leve
     tbb::enumerable_thread_specific<NearTiles> parts(frame, maxTiles);
     forEachSurfaceBlock(tree, level, maxTiles, interrupt, parts);
     Coords tiles;
-    for (NearTiles& part : parts) tiles.insert(tiles.end(), part.tiles().begin(), part.tiles().end());
+    for (const NearTiles& part : parts) tiles.insert(tiles.end(), part.tiles().begin(), part.tiles().end());
     tbb::parallel_sort(tiles.begin(), tiles.end());
     tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
     if (std::int64_t(tiles.size()) > maxTiles) throwTooManyTiles(maxTiles);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bits/TileMask.h"
+#include "simd/Isa.h"
 
 #include <vdbtet/Errors.h>
 
@@ -21,6 +22,33 @@ namespace vdbtet {
 struct ValueRange {
     double min, max;
 };
+
+/// @return whether all 512 voxels of a leaf are finite; widens @a min and @a max to hold them if so.
+template <typename T>
+bool widenIfFinite(const T* voxels, double& min, double& max) {
+    constexpr int kLanes = 64;
+    static_assert(TileMask::kSize % kLanes == 0, "lanes must fill a leaf");
+    constexpr T kLargest = std::numeric_limits<T>::max();
+    T least[kLanes], most[kLanes];
+    bool finite = true;
+    runOn(bestIsa(), [&]() VDBTET_KERNEL {
+        for (int i = 0; i < kLanes; ++i) least[i] = most[i] = voxels[i];
+        int bad = 0;
+        for (int n = 0; n < TileMask::kSize; n += kLanes) {
+            for (int i = 0; i < kLanes; ++i) {
+                const T value = voxels[n + i];
+                bad |= std::abs(value) <= kLargest ? 0 : 1; // true of NaN, too
+                least[i] = value < least[i] ? value : least[i];
+                most[i] = most[i] < value ? value : most[i];
+            }
+        }
+        finite = bad == 0;
+    });
+    if (!finite) return false;
+    min = std::min(min, double(*std::min_element(least, least + kLanes)));
+    max = std::max(max, double(*std::max_element(most, most + kLanes)));
+    return true;
+}
 
 /// @return the least and the greatest value of the leaves, the tiles and the background, active or not.
 /// @throw BadValue where one of them is NaN or infinite
@@ -49,6 +77,7 @@ ValueRange scanValues(const GridT& grid) {
         [&](const tbb::blocked_range<size_t>& range, Scan part) {
             for (size_t l = range.begin(); l != range.end(); ++l) {
                 const auto* data = leaves.leaf(l).buffer().data();
+                if (widenIfFinite(data, part.min, part.max)) continue;
                 for (int n = 0; n < TileMask::kSize; ++n)
                     part.add(data[n], leaves.leaf(l).offsetToGlobalCoord(n));
             }
