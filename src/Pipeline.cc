@@ -5,7 +5,6 @@
 #include "cuts/Arrows.h"
 #include "destinations/Destinations.h"
 #include "emit/Emit.h"
-#include "emit/Measure.h"
 #include "flips/Flips.h"
 #include "labels/Labels.h"
 #include "numbering/Numbering.h"
@@ -43,19 +42,19 @@ double roundingStep(double magnitude, int digits, double spacing) {
     return std::ldexp(1.0, std::ilogb(magnitude) + 1 - digits) / spacing;
 }
 
-MeshTotals totalsOf(const Numbering& numbering, const Measure& measure, const Frame& frame) {
+MeshTotals totalsOf(const Numbering& numbering, const Frame& frame) {
     // A dihedral angle turns by at most about 35 times the relative error of its vertices: two faces, each
     // tilted by the errors of its three vertices over heights that the angle bounds keep above c / 6.
     constexpr double kRadiansPerError = 35.0;
     constexpr double kNegligible = 0.01 / 57.29577951308232; // 0.01 degrees
     MeshTotals totals;
     totals.points = numbering.points();
-    totals.tets = measure.tets();
-    totals.bounds = measure.bounds;
+    totals.tets = numbering.tets();
+    totals.bounds = numbering.bounds;
     double magnitude = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
         magnitude =
-            std::max({magnitude, std::abs(measure.bounds.min()[axis]), std::abs(measure.bounds.max()[axis])});
+            std::max({magnitude, std::abs(numbering.bounds.min()[axis]), std::abs(numbering.bounds.max()[axis])});
     }
     const auto turn = [&](int digits) {
         return kRadiansPerError * 0.5 * roundingStep(magnitude, digits, frame.spacing);
@@ -113,17 +112,13 @@ void runPipeline(const Field& field, const Frame& frame, const Options& options,
     report.extraFlips = flips.extra;
     report.lastResortFlips = flips.lastResort;
     report.conflicts = flips.conflicts;
-    const Numbering numbering = stage("numbering", [&] { return numberVertices(vertices, interrupt); });
-    if (report.cancelled) return;
-    const Measure measure =
-        stage("measure", [&] { return measureMesh(vertices, flips, numbering, frame, interrupt); });
+    const Numbering numbering =
+        stage("numbering", [&] { return numberMesh(vertices, flips, frame, interrupt); });
     if (report.cancelled) return;
     report.points = numbering.points();
-    report.tets = measure.tets();
-    report.boundaryTriangles = measure.boundaryTriangles;
-    report.ambiguous = measure.ambiguous;
-    report.angles = measure.angles;
-    report.bounds = measure.bounds;
+    report.tets = numbering.tets();
+    report.ambiguous = numbering.ambiguous;
+    report.bounds = numbering.bounds;
     if (report.tets == 0) {
         throw NoSurface(
             "the shape is thinner than the lattice can hold, and nothing of it is left; use a finer spacing");
@@ -133,11 +128,17 @@ void runPipeline(const Field& field, const Frame& frame, const Options& options,
     report.angleMin = resolved ? 11.47 : 8.54;
     report.angleMax = resolved ? 157.59 : 164.18;
 
-    stage("emit", [&] {
-        if (sink.begin(totalsOf(numbering, measure, frame))) {
-            emitMesh(vertices, flips, numbering, measure, frame, sink, interrupt);
-        }
-        if (!interrupt.stopped()) sink.end();
+    const bool wantsChunks = stage("begin", [&] { return sink.begin(totalsOf(numbering, frame)); });
+    if (report.cancelled) return;
+    Measure measure = stage(wantsChunks ? "emit" : "measure", [&] {
+        return wantsChunks ? emitMesh(vertices, flips, numbering, frame, sink, interrupt)
+                           : measureMesh(vertices, flips, numbering, frame, interrupt);
+    });
+    if (report.cancelled) return;
+    report.boundaryTriangles = measure.boundaryTriangles;
+    report.angles = measure.angles.stats();
+    stage("end", [&] {
+        sink.end();
         return 0;
     });
 }

@@ -69,13 +69,22 @@ struct Parcel {
     std::unique_ptr<Buffer> buffer;
 };
 
+using Emitters = tbb::enumerable_thread_specific<std::unique_ptr<TileEmitter>>;
+
+Measure sumOf(Emitters& emitters, const Layout& layout) {
+    Measure sum;
+    for (auto& emitter : emitters) sum.add(emitter->measured());
+    for (const Layout::Span& span : layout.spans) {
+        if (span.surface < 0) sum.angles.addLatticeTets(kInteriorTets * span.count);
+    }
+    return sum;
+}
+
 class Emission {
 public:
-    Emission(const Vertices& vertices, const Flips& flips, const Numbering& numbering, const Measure& measure,
-             const Frame& frame, MeshSink& sink, Interrupt& interrupt)
-        : mLayout(vertices.layout), mNumbering(numbering), mMeasure(measure), mSink(sink),
-          mInterrupt(interrupt),
-          mEmitters([&] { return std::make_unique<TileEmitter>(vertices, flips, numbering, frame); }) {}
+    Emission(const Layout& layout, const Numbering& numbering, Emitters& emitters, MeshSink& sink,
+             Interrupt& interrupt)
+        : mLayout(layout), mNumbering(numbering), mEmitters(emitters), mSink(sink), mInterrupt(interrupt) {}
 
     void run() {
         Units units(mLayout);
@@ -97,9 +106,11 @@ public:
 
 private:
     std::int64_t pointsBefore(const Place& at) const {
-        return mNumbering.first[at.span] + kInteriorPoints * at.offset;
+        return mNumbering.firstPoint[at.span] + kInteriorPoints * at.offset;
     }
-    std::int64_t tetsBefore(const Place& at) const { return mMeasure.first[at.span] + kInteriorTets * at.offset; }
+    std::int64_t tetsBefore(const Place& at) const {
+        return mNumbering.firstTet[at.span] + kInteriorTets * at.offset;
+    }
 
     std::unique_ptr<Parcel> make(const Unit& unit) {
         auto parcel = std::make_unique<Parcel>();
@@ -138,7 +149,7 @@ private:
 
     void pass(std::unique_ptr<Parcel> parcel) {
         const double done =
-            double(parcel->chunk.firstTet) / double(std::max<std::int64_t>(1, mMeasure.tets()));
+            double(parcel->chunk.firstTet) / double(mNumbering.tets());
         if (mInterrupt.poll(int(100.0 * done))) return;
         mSink.chunk(parcel->chunk);
         if (parcel->buffer) mSpare.push(std::move(parcel->buffer));
@@ -146,18 +157,28 @@ private:
 
     const Layout& mLayout;
     const Numbering& mNumbering;
-    const Measure& mMeasure;
+    Emitters& mEmitters;
     MeshSink& mSink;
     Interrupt& mInterrupt;
-    tbb::enumerable_thread_specific<std::unique_ptr<TileEmitter>> mEmitters;
     tbb::concurrent_queue<std::unique_ptr<Buffer>> mSpare;
 };
 
 } // namespace
 
-void emitMesh(const Vertices& vertices, const Flips& flips, const Numbering& numbering,
-              const Measure& measure, const Frame& frame, MeshSink& sink, Interrupt& interrupt) {
-    Emission(vertices, flips, numbering, measure, frame, sink, interrupt).run();
+Measure emitMesh(const Vertices& vertices, const Flips& flips, const Numbering& numbering, const Frame& frame,
+                 MeshSink& sink, Interrupt& interrupt) {
+    Emitters emitters([&] { return std::make_unique<TileEmitter>(vertices, flips, numbering, frame); });
+    Emission(vertices.layout, numbering, emitters, sink, interrupt).run();
+    return sumOf(emitters, vertices.layout);
+}
+
+Measure measureMesh(const Vertices& vertices, const Flips& flips, const Numbering& numbering,
+                    const Frame& frame, Interrupt& interrupt) {
+    Emitters emitters([&] { return std::make_unique<TileEmitter>(vertices, flips, numbering, frame); });
+    parallelRanges(vertices.layout.surfaceCount(), interrupt, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t t = begin; t < end; ++t) emitters.local()->measure(TileRef(t));
+    });
+    return sumOf(emitters, vertices.layout);
 }
 
 } // namespace vdbtet

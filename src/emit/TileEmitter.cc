@@ -119,6 +119,12 @@ Output TileEmitter::emit(std::int64_t span, std::int64_t offset, Output out) {
     return out;
 }
 
+void TileEmitter::measure(TileRef surface) {
+    mStates.load(mVertices, surface);
+    mTets.load(surface, mStates);
+    mMeasurer.measure(surface, mTets, mStates);
+}
+
 void TileEmitter::emitSurfaceTile(const Coord& tile, TileRef surface, Output& out) {
     for (int lattice = 0; lattice < 2; ++lattice) {
         const TileMask& used = mNumbering.used[surface][lattice];
@@ -137,8 +143,7 @@ void TileEmitter::emitSurfaceTile(const Coord& tile, TileRef surface, Output& ou
             if (used.test(n)) first[used.rank(n)] = mFrame.world(origin + to);
         });
     }
-    mStates.load(mVertices, surface);
-    mTets.load(surface, mStates);
+    measure(surface);
     out.tets = out.streaming ? writeSurfaceTile<Streaming>(mTets, mIds.data(), out.tets)
                              : writeSurfaceTile<Cached>(mTets, mIds.data(), out.tets);
 }
@@ -183,7 +188,7 @@ TileEmitter::Ids TileEmitter::idsOf(std::int64_t span, int tileZ) const {
     ids.used[bcc::A] = ids.used[bcc::B] = &kNone;
     if (span < 0) return ids;
     const Layout::Span& s = mVertices.layout.spans[span];
-    ids.first[bcc::A] = mNumbering.first[span];
+    ids.first[bcc::A] = mNumbering.firstPoint[span];
     if (s.surface < 0) {
         ids.first[bcc::A] += kInteriorPoints * (std::int64_t(tileZ) - s.first.z());
         ids.used[bcc::A] = ids.used[bcc::B] = &kAll;

@@ -1,10 +1,11 @@
 /// @file TileEmitter.h
-/// Writes the points and tets of one tile after another.
+/// Writes, and measures, the points and tets of one tile after another.
 #pragma once
 
 #include "bcc/Frame.h"
-#include "emit/TileTets.h"
+#include "emit/TileMeasurer.h"
 #include "numbering/Numbering.h"
+#include "tets/TileTets.h"
 
 #include <vdbtet/MeshSink.h>
 
@@ -21,11 +22,18 @@ struct Output {
 class TileEmitter {
 public:
     TileEmitter(const Vertices& vertices, const Flips& flips, const Numbering& numbering, const Frame& frame)
-        : mVertices(vertices), mNumbering(numbering), mFrame(frame), mTets(vertices, flips) {}
+        : mVertices(vertices), mNumbering(numbering), mFrame(frame), mTets(vertices, flips),
+          mMeasurer(vertices) {}
 
     /// Write tile number @a offset of a span of the layout.
     /// @return where the next tile goes
     Output emit(std::int64_t span, std::int64_t offset, Output out);
+
+    /// Measure a surface tile without writing it.
+    void measure(TileRef surface);
+
+    /// What was measured, of written surface tiles too.
+    Measure& measured() { return mMeasurer.sum(); }
 
 private:
     /// The ids of the points of a tile.
@@ -50,6 +58,7 @@ private:
     const Frame& mFrame;
     LocalStates mStates;
     TileTets mTets;
+    TileMeasurer mMeasurer;
     std::array<std::int64_t, kLocalVertices> mIds{}; ///< by local number
 };
 

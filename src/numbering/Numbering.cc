@@ -1,6 +1,12 @@
 /// @file Numbering.cc
-/// Used vertices by dilation of masks, ids by count and scan.
+/// Used vertices by dilation of masks, tets by masks; ids by count and scan.
 #include "numbering/Numbering.h"
+
+#include "tets/TileTets.h"
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <memory>
 
 namespace vdbtet {
 
@@ -23,39 +29,84 @@ TileMask nextToInterior(const PaddedMask& sameLattice, const PaddedMask& otherLa
     return mask;
 }
 
+/// Looks at one tile after another; one for each thread.
+class TileNumberer {
+public:
+    TileNumberer(const Vertices& vertices, const Flips& flips, const Frame& frame)
+        : mVertices(vertices), mFrame(frame), mTets(vertices, flips) {}
+
+    /// @param used  receives the used vertices
+    /// @return the number of tets
+    std::int64_t number(TileRef tile, std::array<TileMask, 2>& used) {
+        mStates.load(mVertices, tile);
+        mTets.load(tile, mStates);
+        ambiguous += mTets.ambiguous();
+        for (bcc::Lattice lattice : {bcc::A, bcc::B}) {
+            used[lattice] = mStates.interiorMask(lattice).core();
+            const TileMask& manifold = mVertices.labels.manifold[tile][lattice];
+            if (!manifold.any()) continue;
+            const TileMask moved = manifold & nextToInterior(mStates.interiorMask(lattice),
+                                                             mStates.interiorMask(bcc::other(lattice)), lattice);
+            used[lattice] |= moved;
+            expandBounds(tile, lattice, moved);
+        }
+        return mTets.tets();
+    }
+
+    std::int64_t ambiguous = 0;
+    openvdb::BBoxd bounds;
+
+private:
+    /// The mesh is bounded by manifold vertices alone, and its points lie in their convex hull.
+    void expandBounds(TileRef tile, bcc::Lattice lattice, const TileMask& moved) {
+        const openvdb::Coord& at = mVertices.layout.surfaceTiles[tile];
+        const openvdb::Vec3d origin(8.0 * at.x(), 8.0 * at.y(), 8.0 * at.z());
+        const TileMask& manifold = mVertices.labels.manifold[tile][lattice];
+        std::int64_t move = mVertices.destinations.first[tile][lattice];
+        manifold.forEach([&](int n) {
+            const openvdb::Vec3d to =
+                homeOf(localIndex(lattice, n)) + mVertices.destinations.move(move++);
+            if (moved.test(n)) bounds.expand(mFrame.world(origin + to));
+        });
+    }
+
+    const Vertices& mVertices;
+    const Frame& mFrame;
+    LocalStates mStates;
+    TileTets mTets;
+};
+
 } // namespace
 
-Numbering numberVertices(const Vertices& vertices, Interrupt& interrupt) {
+Numbering numberMesh(const Vertices& vertices, const Flips& flips, const Frame& frame, Interrupt& interrupt) {
     const Layout& layout = vertices.layout;
-    const auto& manifold = vertices.labels.manifold;
     const std::int64_t tiles = layout.surfaceCount();
-
     Numbering numbering;
     numbering.used.resize(tiles);
+    std::vector<std::int64_t> tets(tiles);
+    tbb::enumerable_thread_specific<std::unique_ptr<TileNumberer>> numberers(
+        [&] { return std::make_unique<TileNumberer>(vertices, flips, frame); });
     parallelRanges(tiles, interrupt, [&](std::int64_t begin, std::int64_t end) {
-        LocalStates states;
-        for (std::int64_t t = begin; t < end; ++t) {
-            for (int lattice = 0; lattice < 2; ++lattice) {
-                numbering.used[t][lattice] = vertices.signs[t][lattice] & ~manifold[t][lattice];
-            }
-            if (!manifold[t][bcc::A].any() && !manifold[t][bcc::B].any()) continue;
-            states.load(vertices, TileRef(t));
-            for (bcc::Lattice lattice : {bcc::A, bcc::B}) {
-                numbering.used[t][lattice] |=
-                    manifold[t][lattice] &
-                    nextToInterior(states.interiorMask(lattice),
-                                   states.interiorMask(bcc::other(lattice)), lattice);
-            }
-        }
+        TileNumberer& numberer = *numberers.local();
+        for (std::int64_t t = begin; t < end; ++t) tets[t] = numberer.number(TileRef(t), numbering.used[t]);
     });
+    for (const auto& part : numberers) {
+        numbering.ambiguous += part->ambiguous;
+        numbering.bounds.expand(part->bounds);
+    }
 
-    numbering.first.reserve(layout.spans.size() + 1);
-    numbering.first.push_back(0);
+    for (auto* first : {&numbering.firstPoint, &numbering.firstTet}) {
+        first->reserve(layout.spans.size() + 1);
+        first->push_back(0);
+    }
     for (const Layout::Span& span : layout.spans) {
-        const std::int64_t points = span.surface < 0 ? kInteriorPoints * span.count
-                                                     : numbering.used[span.surface][bcc::A].count() +
-                                                           numbering.used[span.surface][bcc::B].count();
-        numbering.first.push_back(numbering.first.back() + points);
+        const bool interior = span.surface < 0;
+        const std::int64_t points = interior ? kInteriorPoints * span.count
+                                             : numbering.used[span.surface][bcc::A].count() +
+                                                   numbering.used[span.surface][bcc::B].count();
+        numbering.firstPoint.push_back(numbering.points() + points);
+        numbering.firstTet.push_back(numbering.tets() +
+                                     (interior ? kInteriorTets * span.count : tets[span.surface]));
     }
     return numbering;
 }

@@ -1,6 +1,6 @@
 /// @file TileTets.cc
 /// The tets of slice S for all spines of an axis at a time.
-#include "emit/TileTets.h"
+#include "tets/TileTets.h"
 
 namespace vdbtet {
 

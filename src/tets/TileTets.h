@@ -12,6 +12,9 @@
 
 namespace vdbtet {
 
+/// The tets that an interior tile owns: 12 a cell.
+constexpr std::int64_t kInteriorTets = 12 * TileMask::kSize;
+
 /// A tet as part of an octahedron.
 struct LocalTet {
     LocalOctahedron octahedron;

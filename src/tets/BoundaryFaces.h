@@ -2,7 +2,7 @@
 /// Counts the faces of exactly one tet.
 #pragma once
 
-#include "emit/TileTets.h"
+#include "tets/TileTets.h"
 
 namespace vdbtet {
 

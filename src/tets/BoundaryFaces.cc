@@ -1,6 +1,6 @@
 /// @file BoundaryFaces.cc
 /// By masks where the octahedron beyond is not flipped, else one face at a time.
-#include "emit/BoundaryFaces.h"
+#include "tets/BoundaryFaces.h"
 
 namespace vdbtet {
 
