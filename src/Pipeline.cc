@@ -53,8 +53,8 @@ MeshTotals totalsOf(const Numbering& numbering, const Frame& frame) {
     totals.bounds = numbering.bounds;
     double magnitude = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
-        magnitude =
-            std::max({magnitude, std::abs(numbering.bounds.min()[axis]), std::abs(numbering.bounds.max()[axis])});
+        magnitude = std::max(
+            {magnitude, std::abs(numbering.bounds.min()[axis]), std::abs(numbering.bounds.max()[axis])});
     }
     const auto turn = [&](int digits) {
         return kRadiansPerError * 0.5 * roundingStep(magnitude, digits, frame.spacing);
@@ -100,8 +100,8 @@ void runPipeline(const Field& field, const Frame& frame, const Options& options,
     if (report.cancelled) return;
     report.backLabelled = labels.backLabelled;
     report.tieBroken = labels.tieBroken;
-    const Destinations destinations =
-        stage("destinations", [&] { return findDestinations(field, layout, cuts->arrows, labels, interrupt); });
+    const Destinations destinations = stage(
+        "destinations", [&] { return findDestinations(field, layout, cuts->arrows, labels, interrupt); });
     if (report.cancelled) return;
     cuts.reset(); // the largest product, and no one reads it again
 

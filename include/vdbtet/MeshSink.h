@@ -60,10 +60,10 @@ struct ChunkMemory {
 };
 
 /// @brief Receives a mesh: begin() once, chunk() for each part, end() once when the mesh is whole.
-/// @details A sink gets its chunks one at a time and in order, though not all from the same thread, unless it is
-/// concurrent(). A run that is cancelled or that fails never calls end(); a sink that owns a file then leaves
-/// nothing behind when it is destroyed. Exceptions thrown by a sink end the run and reach the caller; an Error
-/// other than FileError then has the grid's name in front.
+/// @details A sink gets its chunks one at a time and in order, though not all from the same thread, unless it
+/// is concurrent(). A run that is cancelled or that fails never calls end(); a sink that owns a file then
+/// leaves nothing behind when it is destroyed. Exceptions thrown by a sink end the run and reach the caller;
+/// an Error other than FileError then has the grid's name in front.
 class MeshSink {
 public:
     virtual ~MeshSink() = default;
@@ -72,11 +72,12 @@ public:
     virtual void chunk(const MeshChunk& chunk) = 0;
     virtual void end() = 0;
 
-    /// @return true where several threads may call chunk() at once, and in any order. Much the faster way: each
-    /// chunk knows its place in the mesh.
+    /// @return true where several threads may call chunk() at once, and in any order. Much the faster way:
+    /// each chunk knows its place in the mesh.
     virtual bool concurrent() const { return false; }
 
-    /// @brief For a sink that has memory for the whole mesh: where the chunk shall be made that starts with these.
+    /// @brief For a sink that has memory for the whole mesh: where the chunk shall be made that starts with
+    /// these.
     /// @return null pointers, the default, for memory of the mesher's own
     /// @details Called before chunk(), by several threads at once whether the sink is concurrent() or not.
     virtual ChunkMemory memory(std::int64_t firstPoint, std::int64_t firstTet) {

@@ -1,8 +1,8 @@
 /// @file PaddedMask.h
 /// The bits of a tile and of a border of one vertex around it, in rows along z.
 ///
-/// Masks of neighbouring vertices are shifts of it, a slab at a time; and a bit's number is the vertex's local
-/// number, by which the stages that look around a tile index all they unpack.
+/// Masks of neighbouring vertices are shifts of it, a slab at a time; and a bit's number is the vertex's
+/// local number, by which the stages that look around a tile index all they unpack.
 #pragma once
 
 #include "bits/TileMask.h"
@@ -20,8 +20,8 @@ public:
     static constexpr int kRows = kDim * kDim;
     static constexpr std::uint16_t kRow = (1 << kDim) - 1; ///< all bits of a row
 
-    /// @return the number of the bit at (x,y,z), each in -1..8; numbers of neighbours differ by bit(dx,dy,dz) -
-    /// bit(0,0,0) wherever they lie.
+    /// @return the number of the bit at (x,y,z), each in -1..8; numbers of neighbours differ by bit(dx,dy,dz)
+    /// - bit(0,0,0) wherever they lie.
     static constexpr int bit(int x, int y, int z) {
         return (x + 1) * kSlabBits + (y + 1) * kRowBits + (z + 1);
     }
@@ -59,8 +59,8 @@ public:
         for (int r = 0; r < kRows; ++r) rows[r] &= other.rows[r];
     }
 
-    /// @return the mask whose bit n is bit n + @a step of this one, the step being one up along an axis; bits at
-    /// the far border are arbitrary.
+    /// @return the mask whose bit n is bit n + @a step of this one, the step being one up along an axis; bits
+    /// at the far border are arbitrary.
     PaddedMask movedDown(int step) const {
         PaddedMask result;
         const int skipped = step / kRowBits, shift = step % kRowBits;

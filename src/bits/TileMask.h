@@ -14,8 +14,8 @@ inline int countBits(std::uint64_t word) { return __builtin_popcountll(word); }
 inline int lowestBit(std::uint64_t word) { return __builtin_ctzll(word); }
 
 /// @brief Call @a visit(n) for each set bit of some words, in ascending order.
-/// @details A loop over the bits of each word would guess its end wrong nearly every time: most words have none,
-/// one or two. Here they are listed first, two from each word whatever it has.
+/// @details A loop over the bits of each word would guess its end wrong nearly every time: most words have
+/// none, one or two. Here they are listed first, two from each word whatever it has.
 template <std::size_t kWords, typename Visit>
 void forEachBit(const std::array<std::uint64_t, kWords>& words, Visit&& visit) {
     constexpr std::uint64_t kTop = std::uint64_t(1) << 63; // keeps the lowest bit of nothing defined
@@ -28,7 +28,8 @@ void forEachBit(const std::array<std::uint64_t, kWords>& words, Visit&& visit) {
         word &= word - 1;
         next[1] = std::uint16_t(w << 6 | unsigned(lowestBit(word | kTop)));
         word &= word - 1;
-        for (next += 2; next < end; ++next, word &= word - 1) *next = std::uint16_t(w << 6 | unsigned(lowestBit(word)));
+        for (next += 2; next < end; ++next, word &= word - 1)
+            *next = std::uint16_t(w << 6 | unsigned(lowestBit(word)));
         next = end;
     }
     for (const std::uint16_t* n = list; n != next; ++n) visit(int(*n));

@@ -8,7 +8,8 @@ namespace vdbtet {
 
 namespace {
 
-/// The L_A vertices whose edge in a direction has an end in the tile: one at 8 only where the edge leads back.
+/// The L_A vertices whose edge in a direction has an end in the tile: one at 8 only where the edge leads
+/// back.
 std::array<PaddedMask, bcc::kDirections> edgesOfTile() {
     std::array<PaddedMask, bcc::kDirections> edges;
     for (int d = 0; d < bcc::kDirections; ++d) {

@@ -34,7 +34,8 @@ public:
     Tet* next() const { return mNext; }
 
     void write(const LocalTet& tet) {
-        Stores::store(*mNext++, mIds[tet.vertex(0)], mIds[tet.vertex(1)], mIds[tet.vertex(2)], mIds[tet.vertex(3)]);
+        Stores::store(*mNext++, mIds[tet.vertex(0)], mIds[tet.vertex(1)], mIds[tet.vertex(2)],
+                      mIds[tet.vertex(3)]);
     }
 
     /// The tets of all L_A spines along an axis, all of whose vertices are inside.
@@ -150,13 +151,15 @@ void TileEmitter::emitSurfaceTile(const Coord& tile, TileRef surface, Output& ou
 
 void TileEmitter::emitInteriorTile(const Coord& tile, Output& out) {
     for (int lattice = 0; lattice < 2; ++lattice) {
-        for (int row = 0; row < 64; ++row, out.points += 8) emitRow(tile, lattice, row, 0xff, out.streaming, out.points);
+        for (int row = 0; row < 64; ++row, out.points += 8)
+            emitRow(tile, lattice, row, 0xff, out.streaming, out.points);
     }
     out.tets = out.streaming ? writeInteriorTile<Streaming>(mIds.data(), out.tets)
                              : writeInteriorTile<Cached>(mIds.data(), out.tets);
 }
 
-/// The places in the lattice of the vertices @a used of a row. The sums are those of Frame::world(), in its order.
+/// The places in the lattice of the vertices @a used of a row. The sums are those of Frame::world(), in its
+/// order.
 void TileEmitter::emitRow(const Coord& tile, int lattice, int row, unsigned used, bool streaming,
                           Vec3d* points) const {
     if (used == 0) return;
@@ -193,7 +196,8 @@ TileEmitter::Ids TileEmitter::idsOf(std::int64_t span, int tileZ) const {
         ids.first[bcc::A] += kInteriorPoints * (std::int64_t(tileZ) - s.first.z());
         ids.used[bcc::A] = ids.used[bcc::B] = &kAll;
     } else {
-        for (int lattice = 0; lattice < 2; ++lattice) ids.used[lattice] = &mNumbering.used[s.surface][lattice];
+        for (int lattice = 0; lattice < 2; ++lattice)
+            ids.used[lattice] = &mNumbering.used[s.surface][lattice];
     }
     ids.first[bcc::B] = ids.first[bcc::A] + ids.used[bcc::A]->count();
     return ids;

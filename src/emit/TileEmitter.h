@@ -38,7 +38,7 @@ public:
 private:
     /// The ids of the points of a tile.
     struct Ids {
-        std::int64_t first[2] = {0, 0};                 ///< by lattice
+        std::int64_t first[2] = {0, 0};               ///< by lattice
         const TileMask* used[2] = {nullptr, nullptr}; ///< which vertices have one
     };
 

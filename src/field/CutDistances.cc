@@ -17,12 +17,14 @@ constexpr int kLanes = CutEdges::kLanes;
 /// The diagonals of all lanes.
 struct Lanes {
     double b0[kLanes], b1[kLanes], b2[kLanes], b3[kLanes];
-    double start = 0.0, slope = 0.0; ///< the diagonal's parameter is start + slope * (fraction of the near half)
+    double start = 0.0,
+           slope = 0.0; ///< the diagonal's parameter is start + slope * (fraction of the near half)
 
     VDBTET_KERNEL inline explicit Lanes(const CutEdges& edges) {
         for (int i = 0; i < kLanes; ++i) {
             const auto& p = edges.corners;
-            const double corners[8] = {p[0][i], p[1][i], p[2][i], p[3][i], p[4][i], p[5][i], p[6][i], p[7][i]};
+            const double corners[8] = {p[0][i], p[1][i], p[2][i], p[3][i],
+                                       p[4][i], p[5][i], p[6][i], p[7][i]};
             const Diagonal phi = Diagonal::of(corners);
             b0[i] = phi.b0;
             b1[i] = phi.b1;
@@ -31,9 +33,7 @@ struct Lanes {
         }
     }
     VDBTET_KERNEL inline Diagonal diagonal(int i) const { return {b0[i], b1[i], b2[i], b3[i]}; }
-    VDBTET_KERNEL inline double evaluate(int i, double x) const {
-        return diagonal(i)(start + slope * x);
-    }
+    VDBTET_KERNEL inline double evaluate(int i, double x) const { return diagonal(i)(start + slope * x); }
 };
 
 /// @param near  the field at the near end
@@ -65,8 +65,8 @@ VDBTET_KERNEL inline void nearHalfRoots(const Lanes& lanes, const double (&near)
             const double middle = 0.5 * (a[i] + b[i]);
             const double x = (secant > a[i]) & (secant < b[i]) ? secant : middle;
             const double fx = lanes.evaluate(i, x);
-            const bool found = (fx == 0.0) | (std::abs(x - last[i]) < kRootTolerance) |
-                               (b[i] - a[i] < kRootTolerance);
+            const bool found =
+                (fx == 0.0) | (std::abs(x - last[i]) < kRootTolerance) | (b[i] - a[i] < kRootTolerance);
             root[i] = active[i] != 0 ? x : root[i];
             active[i] = found ? 0 : active[i];
             last[i] = x;

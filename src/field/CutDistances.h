@@ -9,8 +9,8 @@
 
 namespace vdbtet {
 
-/// A batch of cut edges: the corner values of their cubes, each from the edge's L_A end as Diagonal::of() wants
-/// them.
+/// A batch of cut edges: the corner values of their cubes, each from the edge's L_A end as Diagonal::of()
+/// wants them.
 struct CutEdges {
     static constexpr int kLanes = 32;
 

@@ -6,8 +6,8 @@
 
 namespace vdbtet {
 
-/// The field along the line from a corner of a voxel-centred cube to its centre, in the cubic's Bernstein form
-/// over the whole diagonal.
+/// The field along the line from a corner of a voxel-centred cube to its centre, in the cubic's Bernstein
+/// form over the whole diagonal.
 struct Diagonal {
     double b0, b1, b2, b3;
 

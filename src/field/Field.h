@@ -37,8 +37,8 @@ public:
 
     /// @return the tiles that the surface matters to, in ascending order. Tile (x,y,z) owns the vertices
     /// [8x, 8x+8) x [8y, 8y+8) x [8z, 8z+8) of both lattices.
-    /// @details Any other tile is plain inside or plain outside: no short edge is cut that touches a vertex of an
-    /// octahedron, of either lattice, whose spine's lower end the tile owns.
+    /// @details Any other tile is plain inside or plain outside: no short edge is cut that touches a vertex
+    /// of an octahedron, of either lattice, whose spine's lower end the tile owns.
     /// @throw TooLarge for more than @a maxTiles
     virtual std::vector<openvdb::Coord> surfaceTiles(std::int64_t maxTiles, Interrupt& interrupt) const = 0;
 
@@ -56,15 +56,16 @@ public:
 
         /// @brief Decide which ends of cut short edges are the nearer ones to their cut points.
         /// @param edges   from L_A vertices at 0 to 8 to L_B vertices at -1 to 7 of the other sign
-        /// @param nearer  receives for each edge 1 if the cut point is nearer to the L_A end, or as near; else 0
+        /// @param nearer  receives for each edge 1 if the cut point is nearer to the L_A end, or as near;
+        /// else 0
         virtual void nearerToA(const openvdb::Coord& tile, const std::vector<ShortEdge>& edges,
                                std::uint8_t* nearer) = 0;
 
         /// @brief Find cut points from their nearer ends.
         /// @param lattice   that of the nearer ends
         /// @param edges     from the tile's own vertices
-        /// @param distance  receives for each edge the distance of its cut point as a fraction of the edge, in
-        /// [0, 1/2]
+        /// @param distance  receives for each edge the distance of its cut point as a fraction of the edge,
+        /// in [0, 1/2]
         virtual void cutPoints(const openvdb::Coord& tile, bcc::Lattice lattice,
                                const std::vector<ShortEdge>& edges, float* distance) = 0;
     };

@@ -69,7 +69,9 @@ private:
                               8.0 * tile.z() + PaddedMask::z(n) + shift);
     }
 
-    static openvdb::Vec3d vectorOf(const ShortEdge& e) { return openvdb::Vec3d(bcc::kShortEdges[e.direction]); }
+    static openvdb::Vec3d vectorOf(const ShortEdge& e) {
+        return openvdb::Vec3d(bcc::kShortEdges[e.direction]);
+    }
 
     double phi(const openvdb::Vec3d& lattice) {
         const openvdb::Vec3d at = mFrame.toIndex * lattice;

@@ -48,7 +48,8 @@ template <typename T>
 TileMask insideVoxels(const T* data, const Level& level, const LeafPart& part) {
     TileMask mask;
     const double isovalue = level.isovalue, sign = level.insideIsBelow ? -1.0 : 1.0;
-    const auto inside = [&](double value) VDBTET_KERNEL { return sign * (value - isovalue) >= 0.0 ? 1u : 0u; };
+    const auto inside = [&](double value)
+                            VDBTET_KERNEL { return sign * (value - isovalue) >= 0.0 ? 1u : 0u; };
     if (part.z == 8) {
         runOn(bestIsa(), [&]() VDBTET_KERNEL {
             for (int x = 0; x < part.x; ++x) {
@@ -226,7 +227,8 @@ private:
     std::int64_t mMaxTiles;
 };
 
-/// @brief Call @a visit(block, mixed) for each block with cubes of mixed signs, some more than once, in any order.
+/// @brief Call @a visit(block, mixed) for each block with cubes of mixed signs, some more than once, in any
+/// order.
 /// @param visitors  gives each thread its own
 template <typename TreeT, typename Visitors>
 void forEachSurfaceBlock(const TreeT& tree, const Level& level, std::int64_t maxTiles, Interrupt& interrupt,
@@ -255,13 +257,13 @@ void forEachSurfaceBlock(const TreeT& tree, const Level& level, std::int64_t max
         }
     });
 
-    // The constant tiles, those of leaf size by their parent nodes: there may be as many as voxels inside / 512.
+    // The constant tiles, those of leaf size by their parent nodes: there may be as many as voxels inside /
+    // 512.
     using UpperT = typename TreeT::RootNodeType::ChildNodeType;
     using LowerT = typename UpperT::ChildNodeType;
     const auto addFaces = [&](ConstantFaces<TreeT>& faces, auto value, int size) {
         for (; value; ++value) {
-            if (level.phi(*value) >= 0.0)
-                faces.visit(openvdb::CoordBBox::createCube(value.getCoord(), size));
+            if (level.phi(*value) >= 0.0) faces.visit(openvdb::CoordBBox::createCube(value.getCoord(), size));
         }
     };
     const auto visitBlocks = [&](const Coords& blocks, std::int64_t begin, std::int64_t end) {

@@ -48,8 +48,8 @@ private:
     size_t mCompactAt = kRoom;
 };
 
-/// Collects the lattice tiles that matter to the mixed cubes of blocks; see Field::surfaceTiles(). One for each
-/// thread.
+/// Collects the lattice tiles that matter to the mixed cubes of blocks; see Field::surfaceTiles(). One for
+/// each thread.
 class NearTiles {
 public:
     NearTiles(const Frame& frame, std::int64_t limit)
@@ -63,9 +63,9 @@ public:
     const Coords& tiles() const { return mTiles.tiles(); }
 
 private:
-    /// The block is a tile, and a cut edge has both its ends in the box of a mixed cube. So a cube matters to the
-    /// neighbours whose border its box touches: octahedra reach half a cell below the tile's vertices and one
-    /// above.
+    /// The block is a tile, and a cut edge has both its ends in the box of a mixed cube. So a cube matters to
+    /// the neighbours whose border its box touches: octahedra reach half a cell below the tile's vertices and
+    /// one above.
     void addOnVoxels(const openvdb::Coord& block, const TileMask& mixed) {
         std::uint64_t slabs[3] = {mixed.words[0], 0, mixed.words[7]}; // by the step to the neighbour
         for (std::uint64_t word : mixed.words) slabs[1] |= word;

@@ -34,8 +34,9 @@ struct CornerOffsets {
     constexpr CornerOffsets() : of() {
         for (int d = 0; d < bcc::kDirections; ++d) {
             for (int corner = 0; corner < 8; ++corner) {
-                of[d][corner] = PaddedMask::step((corner >> 2) * bcc::sign(d, 0), (corner >> 1 & 1) * bcc::sign(d, 1),
-                                                 (corner & 1) * bcc::sign(d, 2));
+                of[d][corner] =
+                    PaddedMask::step((corner >> 2) * bcc::sign(d, 0), (corner >> 1 & 1) * bcc::sign(d, 1),
+                                     (corner & 1) * bcc::sign(d, 2));
             }
         }
     }
@@ -50,7 +51,8 @@ void VoxelBlock::load(const std::array<const T*, 27>& leaves, const Level& level
     const bool below = level.insideIsBelow;
     runOn(mIsa, [&]() VDBTET_KERNEL {
         for (int columns = 0; columns < 9; ++columns) {
-            const T *under = leaves[3 * columns], *middle = leaves[3 * columns + 1], *over = leaves[3 * columns + 2];
+            const T *under = leaves[3 * columns], *middle = leaves[3 * columns + 1],
+                    *over = leaves[3 * columns + 2];
             const int dx = columns / 3 - 1, dy = columns % 3 - 1;
             for (int x = dx < 0 ? 7 : 0; x <= (dx > 0 ? 0 : 7); ++x) {
                 for (int y = dy < 0 ? 7 : 0; y <= (dy > 0 ? 0 : 7); ++y) {
@@ -83,7 +85,8 @@ void VoxelBlock::addEdge(int n, int direction) {
 
 void VoxelBlock::signs(PaddedMask& a, PaddedMask& b) const {
     runOn(mIsa, [&]() VDBTET_KERNEL {
-        for (int r = 0; r < PaddedMask::kRows; ++r) a.rows[r] = insideBits(mPhi + r * kRow) & PaddedMask::kRow;
+        for (int r = 0; r < PaddedMask::kRows; ++r)
+            a.rows[r] = insideBits(mPhi + r * kRow) & PaddedMask::kRow;
         // The mean of the eight corners, by pairs along z, then y, then x.
         constexpr int kCubes = PaddedMask::kDim - 1;
         double squares[2][kCubes][kLanes];
@@ -123,8 +126,8 @@ void VoxelBlock::cutPoints(bcc::Lattice lattice, const std::vector<ShortEdge>& e
                 mEdges.near[mEdges.count] = mPhi[n];
                 addEdge(n, direction);
             } else {
-                // From its L_A end the edge runs the opposite way. The centre's value is summed in the order of
-                // signs(): else its sign could differ.
+                // From its L_A end the edge runs the opposite way. The centre's value is summed in the order
+                // of signs(): else its sign could differ.
                 const bcc::Step step = bcc::shortEdge(bcc::B, direction);
                 mEdges.near[mEdges.count] = centre(n);
                 addEdge(n + PaddedMask::step(step.x, step.y, step.z), bcc::opposite(direction));

@@ -73,7 +73,8 @@ namespace {
 class TileFlipper {
 public:
     /// @param farMoves  by surface tile and lattice, the manifold vertices that move at least kExtremeMove
-    TileFlipper(const Vertices& vertices, const std::vector<std::array<TileMask, 2>>& farMoves, bool withExtra)
+    TileFlipper(const Vertices& vertices, const std::vector<std::array<TileMask, 2>>& farMoves,
+                bool withExtra)
         : mVertices(vertices), mFarMoves(farMoves), mWithExtra(withExtra), mLocal(vertices) {}
 
     struct Result {
@@ -113,8 +114,7 @@ private:
 
     /// Algorithm 4: spines between vertices inside and outside that are not manifold.
     void findActive(bcc::Lattice lattice, int axis) {
-        const PaddedMask &interior = mLocal.interiorMask(lattice),
-                         &manifold = mLocal.manifoldMask(lattice);
+        const PaddedMask &interior = mLocal.interiorMask(lattice), &manifold = mLocal.manifoldMask(lattice);
         const TileMask spines = (interior.core() ^ interior.shifted(axis == 0, axis == 1, axis == 2)) &
                                 ~(manifold.core() | manifold.shifted(axis == 0, axis == 1, axis == 2));
         spines.forEach([&](int n) {

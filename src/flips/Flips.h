@@ -60,8 +60,9 @@ struct ExtraFlip {
 };
 
 /// @brief Algorithm 4: the slices of octahedra whose spines join an inside and an outside vertex.
-/// @details Decides by the two tets at the inside end alone: the whole ring is manifold, for each of its vertices
-/// has a cut edge to an end that is not. Ties within 1e-5 degrees go to the other criterion, then to slice A.
+/// @details Decides by the two tets at the inside end alone: the whole ring is manifold, for each of its
+/// vertices has a cut edge to an end that is not. Ties within 1e-5 degrees go to the other criterion, then to
+/// slice A.
 void chooseActiveSlices(const LocalVertices& vertices, const std::vector<LocalOctahedron>& octahedra,
                         std::vector<bcc::Slice>& slices, Isa isa = bestIsa());
 

@@ -1,5 +1,6 @@
 /// @file Slices.h
-/// How good the tets of an octahedron's slice are, and which of two slices is the better one (paper, Algorithm 4).
+/// How good the tets of an octahedron's slice are, and which of two slices is the better one (paper,
+/// Algorithm 4).
 #pragma once
 
 #include "destinations/LocalVertices.h"

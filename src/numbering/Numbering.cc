@@ -14,8 +14,7 @@ namespace {
 
 /// @return the vertices of @a lattice in a tile that have a neighbour, by a short or a long edge, in the
 /// interior.
-TileMask nextToInterior(const PaddedMask& sameLattice, const PaddedMask& otherLattice,
-                        bcc::Lattice lattice) {
+TileMask nextToInterior(const PaddedMask& sameLattice, const PaddedMask& otherLattice, bcc::Lattice lattice) {
     TileMask mask;
     for (int axis = 0; axis < 3; ++axis) {
         for (int step : {-1, 1}) {
@@ -45,8 +44,9 @@ public:
             used[lattice] = mStates.interiorMask(lattice).core();
             const TileMask& manifold = mVertices.labels.manifold[tile][lattice];
             if (!manifold.any()) continue;
-            const TileMask moved = manifold & nextToInterior(mStates.interiorMask(lattice),
-                                                             mStates.interiorMask(bcc::other(lattice)), lattice);
+            const TileMask moved =
+                manifold & nextToInterior(mStates.interiorMask(lattice),
+                                          mStates.interiorMask(bcc::other(lattice)), lattice);
             used[lattice] |= moved;
             expandBounds(tile, lattice, moved);
         }
@@ -64,8 +64,7 @@ private:
         const TileMask& manifold = mVertices.labels.manifold[tile][lattice];
         std::int64_t move = mVertices.destinations.first[tile][lattice];
         manifold.forEach([&](int n) {
-            const openvdb::Vec3d to =
-                homeOf(localIndex(lattice, n)) + mVertices.destinations.move(move++);
+            const openvdb::Vec3d to = homeOf(localIndex(lattice, n)) + mVertices.destinations.move(move++);
             if (moved.test(n)) bounds.expand(mFrame.world(origin + to));
         });
     }

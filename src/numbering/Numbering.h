@@ -1,6 +1,6 @@
 /// @file Numbering.h
-/// Which vertices are in the mesh, and the ids of points and tets: the exact size of the mesh, before any of it is
-/// made.
+/// Which vertices are in the mesh, and the ids of points and tets: the exact size of the mesh, before any of
+/// it is made.
 #pragma once
 
 #include "Parallel.h"
@@ -14,8 +14,8 @@
 
 namespace vdbtet {
 
-/// @brief Ids: those of a span's points start at firstPoint[span]; within a tile they go by rank in the used masks,
-/// L_A before L_B. Those of its tets start at firstTet[span] and go in the order of TileTets.
+/// @brief Ids: those of a span's points start at firstPoint[span]; within a tile they go by rank in the used
+/// masks, L_A before L_B. Those of its tets start at firstTet[span] and go in the order of TileTets.
 struct Numbering {
     /// The used vertices of each surface tile. Interior tiles use all of theirs.
     std::vector<std::array<TileMask, 2>> used;

@@ -18,8 +18,9 @@ bool supports(Isa isa) {
 }
 
 Isa bestIsa() {
-    static const Isa kBest =
-        supports(Isa::Avx512) ? Isa::Avx512 : supports(Isa::Avx2) ? Isa::Avx2 : Isa::Plain;
+    static const Isa kBest = supports(Isa::Avx512) ? Isa::Avx512
+                             : supports(Isa::Avx2) ? Isa::Avx2
+                                                   : Isa::Plain;
     return kBest;
 }
 

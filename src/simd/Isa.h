@@ -16,13 +16,13 @@ bool supports(Isa isa);
 /// @return the best one that is supported.
 Isa bestIsa();
 
-/// What a kernel and all that it calls must be declared, to be compiled for the instruction set of its caller.
+/// What a kernel and all that it calls must be declared, to be compiled for the instruction set of its
+/// caller.
 #define VDBTET_KERNEL __attribute__((always_inline))
 
 #if defined(__x86_64__) && defined(__GNUC__)
 #define VDBTET_AVX2 __attribute__((target("avx2,bmi,bmi2,popcnt")))
-#define VDBTET_AVX512                                                                                        \
-    __attribute__((target("avx2,bmi,bmi2,popcnt,avx512f,avx512dq,avx512bw,avx512vl")))
+#define VDBTET_AVX512 __attribute__((target("avx2,bmi,bmi2,popcnt,avx512f,avx512dq,avx512bw,avx512vl")))
 #else
 #define VDBTET_AVX2
 #define VDBTET_AVX512

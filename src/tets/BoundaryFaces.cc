@@ -40,7 +40,8 @@ constexpr Spine spineBetween(const Doubled& a, const Doubled& b) {
 class Faces {
 public:
     Faces(const Vertices& vertices, TileRef tile, const LocalFlips& flips, const LocalStates& states)
-        : mVertices(vertices), mNeighbours(vertices.layout.neighbours[tile]), mFlips(flips), mStates(states) {}
+        : mVertices(vertices), mNeighbours(vertices.layout.neighbours[tile]), mFlips(flips), mStates(states) {
+    }
 
     /// @return whether the face of three manifold vertices of a tet in the mesh lies on the mesh's boundary.
     bool isBoundary(const LocalTet& tet) const {
@@ -79,8 +80,8 @@ private:
     /// @param end       the end of the octahedron's spine in the face
     /// @param otherEnd  its other end
     /// @param o1,o2     the ring edge in the face
-    /// @details Beyond lies the octahedron of the spine from @a end to the mirror image of @a otherEnd. All of
-    /// the face is manifold, so the fourth vertex decides.
+    /// @details Beyond lies the octahedron of the spine from @a end to the mirror image of @a otherEnd. All
+    /// of the face is manifold, so the fourth vertex decides.
     bool inMeshBeyond(const Doubled& end, const Doubled& otherEnd, const Doubled& o1,
                       const Doubled& o2) const {
         const Doubled mirrored(o1, o2, otherEnd);
@@ -90,8 +91,8 @@ private:
             mFlips.slice(spine.axis, localIndex(lower.lattice(), lower.x(), lower.y(), lower.z()));
         if (slice == bcc::S) return interior(mirrored);
 
-        // A flipped octahedron: the fourth vertex is the far end of the ring's diagonal, which starts at o1 or
-        // at o2.
+        // A flipped octahedron: the fourth vertex is the far end of the ring's diagonal, which starts at o1
+        // or at o2.
         const bcc::Octahedron& vertices = bcc::kOctahedra[lower.lattice()][spine.axis];
         const bcc::Vertex& diagonal = vertices[slice == bcc::SliceA ? 2 : 3];
         const bcc::Vertex& opposite = vertices[slice == bcc::SliceA ? 4 : 5];
@@ -117,9 +118,7 @@ private:
     const LocalStates& mStates;
 };
 
-TileMask shiftedTo(const PaddedMask& mask, const Doubled& at) {
-    return mask.shifted(at.x(), at.y(), at.z());
-}
+TileMask shiftedTo(const PaddedMask& mask, const Doubled& at) { return mask.shifted(at.x(), at.y(), at.z()); }
 
 } // namespace
 

@@ -7,7 +7,8 @@
 namespace vdbtet {
 
 /// @return the boundary faces of the tets that surface tile @a tile owns.
-/// @details Three manifold vertices make a face that may lie on the boundary, any other vertex one that cannot.
+/// @details Three manifold vertices make a face that may lie on the boundary, any other vertex one that
+/// cannot.
 /// @param tets,states  of that tile
 std::int64_t countBoundaryFaces(const Vertices& vertices, TileRef tile, const TileTets& tets,
                                 const LocalStates& states);

@@ -53,11 +53,12 @@ void TileTets::findLatticeTets(int axis) {
         const auto& tet = bcc::kSliceTets[bcc::S][number];
         const bcc::RingEdge& edge = bcc::kRingEdges[number];
         const bcc::Vertex& lower = bcc::kOctahedra[bcc::A][axis][edge.lower];
-        const TileMask gone = mFlippedA[axis] | mLocalFlips.mask(bcc::B, (axis + edge.axisOffset) % 3)
-                                                    .shifted(lower.x, lower.y, lower.z);
-        const TileMask all =
-            present[tet[0]] & present[tet[1]] & present[tet[2]] & present[tet[3]] & ~gone;
-        const TileMask ambiguous = all & manifold[tet[0]] & manifold[tet[1]] & manifold[tet[2]] & manifold[tet[3]];
+        const TileMask gone =
+            mFlippedA[axis] |
+            mLocalFlips.mask(bcc::B, (axis + edge.axisOffset) % 3).shifted(lower.x, lower.y, lower.z);
+        const TileMask all = present[tet[0]] & present[tet[1]] & present[tet[2]] & present[tet[3]] & ~gone;
+        const TileMask ambiguous =
+            all & manifold[tet[0]] & manifold[tet[1]] & manifold[tet[2]] & manifold[tet[3]];
         mLattice[axis][number] = all & ~ambiguous;
         mTets += mLattice[axis][number].count();
         mAmbiguous += ambiguous.count();

@@ -16,8 +16,8 @@ using openvdb::Coord;
 
 namespace {
 
-/// @return whether the field has one sign on the octahedra that a tile owns and on all ends of their edges: the
-/// vertices of L_A at -1 to 9 and of L_B at -1 to 8.
+/// @return whether the field has one sign on the octahedra that a tile owns and on all ends of their edges:
+/// the vertices of L_A at -1 to 9 and of L_B at -1 to 8.
 bool isUniform(Field::Sampler& sampler, const Coord& tile) {
     std::vector<TileSigns> signs;
     for (int slot = 0; slot < 27; ++slot)
