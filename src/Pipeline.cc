@@ -100,6 +100,7 @@ void runPipeline(const Field& field, const Frame& frame, const Options& options,
     if (report.cancelled) return;
     report.backLabelled = labels.backLabelled;
     report.tieBroken = labels.tieBroken;
+    report.worklistSeconds = labels.worklistSeconds;
     const Destinations destinations = stage(
         "destinations", [&] { return findDestinations(field, layout, cuts->arrows, labels, interrupt); });
     if (report.cancelled) return;

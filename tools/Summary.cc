@@ -92,6 +92,7 @@ std::string asJson(const CommandLine& line, const Summary& summary) {
           {"histogram", r.angles.histogram}}},
         {"bounds", {{"min", corner(r.bounds.min())}, {"max", corner(r.bounds.max())}}},
         {"stages", stages},
+        {"worklistSeconds", r.worklistSeconds},
         {"seconds", summary.seconds}};
     // A file may name its grids in any encoding.
     return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

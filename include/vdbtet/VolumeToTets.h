@@ -78,7 +78,8 @@ struct Report {
         std::string name;
         double seconds;
     };
-    std::vector<Stage> stages; ///< wall time, in the order of work
+    std::vector<Stage> stages;    ///< wall time, in the order of work
+    double worklistSeconds = 0.0; ///< of the stage labels, the serial part
 };
 
 /// @brief Mesh the inside of a sparse volume with tetrahedra.

@@ -100,16 +100,12 @@ private:
         return words;
     }
 
-    // Eight rows of a slab at a time, in vectors as both GCC and Clang know them.
+    // Eight rows of a slab at a time, in vectors as both GCC and Clang know them: a byte of a tile's word is
+    // a row.
     typedef std::uint16_t Rows __attribute__((vector_size(16)));
     typedef std::uint8_t Bytes __attribute__((vector_size(8)));
 
-    // A byte of a mask's word is a row, the lowest first, whatever the machine's byte order.
-    static std::uint64_t ordered(std::uint64_t word) {
-        return __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__ ? __builtin_bswap64(word) : word;
-    }
     static Rows widened(std::uint64_t word) {
-        word = ordered(word);
         Bytes bytes;
         std::memcpy(&bytes, &word, sizeof bytes);
         return __builtin_convertvector(bytes, Rows);
@@ -118,7 +114,7 @@ private:
         const Bytes bytes = __builtin_convertvector(rows, Bytes);
         std::uint64_t word;
         std::memcpy(&word, &bytes, sizeof word);
-        return ordered(word);
+        return word;
     }
 };
 

@@ -9,6 +9,7 @@
 #include "Parallel.h"
 #include "bits/PaddedMask.h"
 #include "field/Level.h"
+#include "field/TreeNodes.h"
 #include "simd/Isa.h"
 
 #include <vdbtet/Errors.h>
@@ -259,29 +260,28 @@ void forEachSurfaceBlock(const TreeT& tree, const Level& level, std::int64_t max
 
     // The constant tiles, those of leaf size by their parent nodes: there may be as many as voxels inside /
     // 512.
-    using UpperT = typename TreeT::RootNodeType::ChildNodeType;
-    using LowerT = typename UpperT::ChildNodeType;
-    const auto addFaces = [&](ConstantFaces<TreeT>& faces, auto value, int size) {
-        for (; value; ++value) {
-            if (level.phi(*value) >= 0.0) faces.visit(openvdb::CoordBBox::createCube(value.getCoord(), size));
-        }
+    const TreeNodes<TreeT> nodes(tree);
+    const auto addFaces = [&](ConstantFaces<TreeT>& faces, const auto& node, int size) {
+        forEachTile(node, [&](double value, openvdb::Index slot) {
+            if (level.phi(value) >= 0.0)
+                faces.visit(openvdb::CoordBBox::createCube(node.offsetToGlobalCoord(slot), size));
+        });
     };
     const auto visitBlocks = [&](const Coords& blocks, std::int64_t begin, std::int64_t end) {
         BlockSigns<TreeT> signs(tree, level);
         for (std::int64_t b = begin; b < end; ++b) visit(signs, blocks[b]);
     };
-    std::vector<const LowerT*> lower;
-    tree.getNodes(lower);
-    parallelEach(std::int64_t(lower.size()), interrupt, [&](std::int64_t n) {
+    parallelEach(std::int64_t(nodes.lower.size()), interrupt, [&](std::int64_t n) {
         ConstantFaces<TreeT> faces(tree, level, maxTiles);
-        addFaces(faces, lower[n]->cbeginValueAll(), int(TreeT::LeafNodeType::DIM));
+        addFaces(faces, *nodes.lower[n], int(TreeT::LeafNodeType::DIM));
         visitBlocks(faces.blocks(), 0, std::int64_t(faces.blocks().size()));
     });
     ConstantFaces<TreeT> faces(tree, level, maxTiles);
-    std::vector<const UpperT*> upper;
-    tree.getNodes(upper);
-    for (const UpperT* node : upper) addFaces(faces, node->cbeginValueAll(), int(LowerT::DIM));
-    addFaces(faces, tree.root().cbeginValueAll(), int(UpperT::DIM));
+    for (const auto* node : nodes.upper) addFaces(faces, *node, int(TreeNodes<TreeT>::LowerT::DIM));
+    for (auto tile = tree.root().cbeginValueAll(); tile; ++tile) {
+        if (level.phi(*tile) >= 0.0)
+            faces.visit(openvdb::CoordBBox::createCube(tile.getCoord(), int(TreeNodes<TreeT>::UpperT::DIM)));
+    }
     const Coords& blocks = faces.blocks();
     parallelRanges(std::int64_t(blocks.size()), interrupt,
                    [&](std::int64_t begin, std::int64_t end) { visitBlocks(blocks, begin, end); });

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bits/TileMask.h"
+#include "field/TreeNodes.h"
 #include "simd/Isa.h"
 
 #include <vdbtet/Errors.h>
@@ -10,7 +11,8 @@
 #include <openvdb/tree/LeafManager.h>
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -50,49 +52,64 @@ bool widenIfFinite(const T* voxels, double& min, double& max) {
     return true;
 }
 
+/// What a part of the tree has.
+struct ValueScan {
+    double min = std::numeric_limits<double>::infinity(), max = -min;
+    std::int64_t bad = 0;
+    openvdb::Coord firstBad = openvdb::Coord::max();
+
+    template <typename Place>
+    void add(double value, const Place& place) {
+        if (!std::isfinite(value)) {
+            ++bad;
+            firstBad = std::min(firstBad, place());
+            return;
+        }
+        min = std::min(min, value);
+        max = std::max(max, value);
+    }
+    void add(const ValueScan& other) {
+        min = std::min(min, other.min);
+        max = std::max(max, other.max);
+        bad += other.bad;
+        firstBad = std::min(firstBad, other.firstBad);
+    }
+
+    template <typename LeafT>
+    void addLeaf(const LeafT& leaf) {
+        const auto* voxels = leaf.buffer().data();
+        if (widenIfFinite(voxels, min, max)) return;
+        for (int n = 0; n < TileMask::kSize; ++n) add(voxels[n], [&] { return leaf.offsetToGlobalCoord(n); });
+    }
+    template <typename NodeT>
+    void addTiles(const NodeT& node) {
+        forEachTile(node, [&](double value, openvdb::Index slot) {
+            add(value, [&] { return node.offsetToGlobalCoord(slot); });
+        });
+    }
+};
+
 /// @return the least and the greatest value of the leaves, the tiles and the background, active or not.
 /// @throw BadValue where one of them is NaN or infinite
 template <typename GridT>
 ValueRange scanValues(const GridT& grid) {
-    struct Scan {
-        double min = std::numeric_limits<double>::infinity(), max = -min;
-        std::int64_t bad = 0;
-        openvdb::Coord firstBad = openvdb::Coord::max();
-
-        void add(double value, const openvdb::Coord& at) {
-            if (!std::isfinite(value)) {
-                ++bad;
-                firstBad = std::min(firstBad, at);
-                return;
-            }
-            min = std::min(min, value);
-            max = std::max(max, value);
-        }
-    };
     if (!std::isfinite(grid.background())) throw BadValue("the background value is not a finite number");
     using TreeT = typename GridT::TreeType;
+    tbb::enumerable_thread_specific<ValueScan> scans;
     const openvdb::tree::LeafManager<const TreeT> leaves(grid.tree());
-    Scan scan = tbb::parallel_reduce(
-        tbb::blocked_range<size_t>(0, leaves.leafCount(), 64), Scan(),
-        [&](const tbb::blocked_range<size_t>& range, Scan part) {
-            for (size_t l = range.begin(); l != range.end(); ++l) {
-                const auto* data = leaves.leaf(l).buffer().data();
-                if (widenIfFinite(data, part.min, part.max)) continue;
-                for (int n = 0; n < TileMask::kSize; ++n)
-                    part.add(data[n], leaves.leaf(l).offsetToGlobalCoord(n));
-            }
-            return part;
-        },
-        [](Scan a, const Scan& b) {
-            a.min = std::min(a.min, b.min);
-            a.max = std::max(a.max, b.max);
-            a.bad += b.bad;
-            a.firstBad = std::min(a.firstBad, b.firstBad);
-            return a;
-        });
-    auto tile = grid.tree().cbeginValueAll();
-    tile.setMaxDepth(tile.getLeafDepth() - 1);
-    for (; tile; ++tile) scan.add(tile.getValue(), tile.getCoord());
+    tbb::parallel_for(tbb::blocked_range<size_t>(0, leaves.leafCount(), 64), [&](const auto& range) {
+        ValueScan& scan = scans.local();
+        for (size_t l = range.begin(); l != range.end(); ++l) scan.addLeaf(leaves.leaf(l));
+    });
+    const TreeNodes<TreeT> nodes(grid.tree());
+    tbb::parallel_for(size_t(0), nodes.lower.size(),
+                      [&](size_t n) { scans.local().addTiles(*nodes.lower[n]); });
+    tbb::parallel_for(size_t(0), nodes.upper.size(),
+                      [&](size_t n) { scans.local().addTiles(*nodes.upper[n]); });
+    ValueScan scan;
+    for (const ValueScan& part : scans) scan.add(part);
+    for (auto tile = grid.tree().root().cbeginValueAll(); tile; ++tile)
+        scan.add(*tile, [&] { return tile.getCoord(); });
     if (scan.bad != 0) {
         std::ostringstream message;
         message << scan.bad << " voxels or tiles hold NaN or infinite values, the first at " << scan.firstBad

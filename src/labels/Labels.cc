@@ -4,6 +4,8 @@
 
 #include "bits/PaddedMask.h"
 
+#include <algorithm>
+#include <chrono>
 #include <deque>
 
 namespace vdbtet {
@@ -35,10 +37,13 @@ public:
             }
         }
         Labels labels;
+        const auto start = std::chrono::steady_clock::now();
         if (!mInterrupt.stopped()) {
             runWorklist(labels);
             breakTies(labels);
         }
+        labels.worklistSeconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         labels.manifold = std::move(mManifold);
         return labels;
     }
@@ -103,7 +108,9 @@ private:
         std::deque<VertexRef> work;
         for (TileRef t : mArrows.tiles) {
             for (bcc::Lattice lattice : {bcc::A, bcc::B}) {
+                if (!mUndecided[t][lattice].any()) continue;
                 mUndecided[t][lattice].forEach([&](int vertex) { work.push_back({t, lattice, vertex}); });
+                mLeft.push_back(t);
             }
         }
         labels.backLabelled = std::int64_t(work.size());
@@ -123,7 +130,8 @@ private:
 
     /// Rule 2. Valid only after rule 1 has converged: each vertex left has an arrow to another one left.
     void breakTies(Labels& labels) {
-        for (size_t t = 0; t < mUndecided.size(); ++t) {
+        mLeft.erase(std::unique(mLeft.begin(), mLeft.end()), mLeft.end());
+        for (TileRef t : mLeft) {
             labels.tieBroken += mUndecided[t][bcc::A].count() + mUndecided[t][bcc::B].count();
             mManifold[t][bcc::B] |= mUndecided[t][bcc::B];
         }
@@ -135,6 +143,7 @@ private:
     Interrupt& mInterrupt;
     std::vector<LatticeMasks> mUndecided;
     std::vector<LatticeMasks> mManifold;
+    std::vector<TileRef> mLeft; ///< the tiles that the rounds left something undecided in
 };
 
 } // namespace

@@ -25,6 +25,7 @@ struct Labels {
 
     std::int64_t backLabelled = 0; ///< vertices left to the serial worklist
     std::int64_t tieBroken = 0;    ///< vertices settled by rule 2
+    double worklistSeconds = 0.0;  ///< the serial part of the time
 };
 
 Labels labelVertices(const Layout& layout, const Arrows& arrows, Interrupt& interrupt);

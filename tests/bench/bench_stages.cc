@@ -3,7 +3,7 @@
 /// volumeToMesh() on the same grid, and copying as many bytes as the mesh has.
 ///
 /// usage: vdbtet_bench [--benchmark_OPTION=...] GRID.vdb...
-///        vdbtet_bench --write N OUT.vdb   makes the fixture of resolution N
+///        vdbtet_bench --write torus|box N OUT.vdb   makes the fixture of resolution N
 ///
 /// The counters of a repetition are seconds, by stage and by comparison. tests/bench/benchmark.py makes
 /// tables.
@@ -42,12 +42,16 @@ openvdb::FloatGrid::Ptr read(const std::string& path) {
     return grid;
 }
 
-/// Takes every chunk and keeps none: for the stages of meshes of any size.
+/// Takes every chunk and keeps none, or wants none: for the stages of meshes of any size.
 struct NullSink final : vdbtet::MeshSink {
-    bool begin(const vdbtet::MeshTotals&) override { return true; }
+    explicit NullSink(bool wantsChunks) : mWantsChunks(wantsChunks) {}
+    bool begin(const vdbtet::MeshTotals&) override { return mWantsChunks; }
     void chunk(const vdbtet::MeshChunk&) override {}
     void end() override {}
     bool concurrent() const override { return true; }
+
+private:
+    bool mWantsChunks;
 };
 
 template <typename WorkF>
@@ -81,10 +85,13 @@ Rounds::Rounds(const std::string& path) : mGrid(read(path)) {
 
 benchmark::UserCounters Rounds::run(int threads) {
     benchmark::UserCounters counters;
-    NullSink sink;
+    NullSink dropping(true), counting(false);
     vdbtet::Report report;
-    counters["volumeToTets"] = secondsOn(threads, [&] { report = vdbtet::volumeToTets(*mGrid, sink); });
+    secondsOn(threads, [&] { report = vdbtet::volumeToTets(*mGrid, counting); });
+    counters["measure"] = report.stages[report.stages.size() - 2].seconds; // the last is the sink's end
+    counters["volumeToTets"] = secondsOn(threads, [&] { report = vdbtet::volumeToTets(*mGrid, dropping); });
     for (const auto& stage : report.stages) counters[stage.name] = stage.seconds;
+    counters["worklist"] = report.worklistSeconds;
     counters["volumeToMesh"] = secondsOn(threads, [&] {
         std::vector<openvdb::Vec3s> points;
         std::vector<openvdb::Vec4I> quads;
@@ -161,8 +168,11 @@ int runBenchmarks(int argc, char** argv) {
 
 int main(int argc, char** argv) try {
     openvdb::initialize();
-    if (argc == 4 && std::strcmp(argv[1], "--write") == 0) {
-        openvdb::io::File(argv[3]).write({vdbtet::bench::bumpyTorus(std::atoi(argv[2]))});
+    if (argc == 5 && std::strcmp(argv[1], "--write") == 0) {
+        const int resolution = std::atoi(argv[3]);
+        const bool box = std::strcmp(argv[2], "box") == 0;
+        openvdb::io::File(argv[4]).write(
+            {box ? vdbtet::bench::box(resolution) : vdbtet::bench::bumpyTorus(resolution)});
         return 0;
     }
     return runBenchmarks(argc, argv);

@@ -74,12 +74,12 @@ FloatGrid::Ptr bumpyTorus(int resolution) {
     const int half = resolution / 2 / int(Leaf::DIM) + 2; // leaves from the centre to past the band
     const int side = 2 * half;
 
-    std::vector<std::unique_ptr<Leaf>> leaves(std::size_t(side) * side * side);
+    std::vector<std::vector<std::unique_ptr<Leaf>>> columns(std::size_t(side) * side);
     tbb::parallel_for(0, side * side, [&](int xy) {
         for (int z = 0; z < side; ++z) {
-            const Coord leaf(xy / side - half, xy % side - half, z - half);
-            leaves[std::size_t(xy) * side + z] =
-                makeLeaf(Coord(leaf.x() * 8, leaf.y() * 8, leaf.z() * 8), voxel);
+            auto leaf =
+                makeLeaf(Coord(8 * (xy / side - half), 8 * (xy % side - half), 8 * (z - half)), voxel);
+            if (leaf) columns[std::size_t(xy)].push_back(std::move(leaf));
         }
     });
 
@@ -87,10 +87,18 @@ FloatGrid::Ptr bumpyTorus(int resolution) {
     grid->setName("torus_" + std::to_string(resolution));
     grid->setGridClass(openvdb::GRID_LEVEL_SET);
     grid->setTransform(openvdb::math::Transform::createLinearTransform(voxel));
-    for (auto& leaf : leaves) {
-        if (leaf) grid->tree().addLeaf(leaf.release());
+    for (auto& column : columns) {
+        for (auto& leaf : column) grid->tree().addLeaf(leaf.release());
     }
     openvdb::tools::signedFloodFill(grid->tree());
+    return grid;
+}
+
+FloatGrid::Ptr box(int resolution) {
+    auto grid = FloatGrid::create(1.0f);
+    grid->setName("box_" + std::to_string(resolution));
+    grid->setGridClass(openvdb::GRID_LEVEL_SET);
+    grid->sparseFill(openvdb::CoordBBox(Coord(0), Coord(resolution - 1)), -1.0f);
     return grid;
 }
 

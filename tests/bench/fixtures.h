@@ -1,5 +1,5 @@
 /// @file fixtures.h
-/// The solid that the benchmarks mesh, at any resolution.
+/// The solids that the benchmarks mesh, at any resolution.
 #pragma once
 
 #include <openvdb/openvdb.h>
@@ -11,5 +11,8 @@ namespace vdbtet::bench {
 /// @details All of the shape scales with the resolution, so its surface grows with the square and its inside
 /// with the cube of it. The tube is so thin that the mesh at 512 still fits into memory, twice.
 openvdb::FloatGrid::Ptr bumpyTorus(int resolution);
+
+/// A cube of @a resolution voxels, a multiple of 8, made of constant tiles: next to no surface, all interior.
+openvdb::FloatGrid::Ptr box(int resolution);
 
 } // namespace vdbtet::bench

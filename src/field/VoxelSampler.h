@@ -1,0 +1,75 @@
+/// @file VoxelSampler.h
+/// The field where the lattice's vertices are voxel centres and centres of their cubes.
+#pragma once
+
+#include "field/Field.h"
+#include "field/Level.h"
+#include "field/VoxelBlock.h"
+
+#include <openvdb/tree/ValueAccessor.h>
+
+#include <array>
+#include <vector>
+
+namespace vdbtet {
+
+/// Samples the grid where L_A is the voxel centres and tiles are leaves: no position is ever computed.
+template <typename GridT>
+class VoxelSampler final : public Field::Sampler {
+public:
+    VoxelSampler(const GridT& grid, const Level& level) : mAccessor(grid.tree()), mLevel(level) {}
+
+    void signs(const openvdb::Coord& tile, PaddedMask& a, PaddedMask& b) override {
+        load(tile);
+        mBlock.signs(a, b);
+    }
+
+    void nearerToA(const openvdb::Coord& tile, const std::vector<ShortEdge>& edges,
+                   std::uint8_t* nearer) override {
+        load(tile);
+        mBlock.nearerToA(edges, nearer);
+    }
+
+    void cutPoints(const openvdb::Coord& tile, bcc::Lattice lattice, const std::vector<ShortEdge>& edges,
+                   float* distance) override {
+        load(tile);
+        mBlock.cutPoints(lattice, edges, distance);
+    }
+
+private:
+    using ValueT = typename GridT::ValueType;
+
+    /// Copy the tile's voxels and a border of one from the leaves.
+    void load(const openvdb::Coord& tile) {
+        if (mLoaded && tile == mTile) return;
+        mLoaded = true;
+        mTile = tile;
+        std::array<const ValueT*, 27> leaves;
+        for (int slot = 0; slot < 27; ++slot) {
+            const openvdb::Coord origin(8 * (tile.x() + slot / 9 - 1), 8 * (tile.y() + slot / 3 % 3 - 1),
+                                        8 * (tile.z() + slot % 3 - 1));
+            if (const auto* leaf = mAccessor.probeConstLeaf(origin)) {
+                leaves[slot] = leaf->buffer().data();
+            } else {
+                leaves[slot] = constantLeaf(slot, mAccessor.getValue(origin));
+            }
+        }
+        mBlock.load(leaves, mLevel);
+    }
+
+    /// @return as many times @a value as a leaf has voxels, valid until the next call for this slot.
+    const ValueT* constantLeaf(int slot, ValueT value) {
+        std::vector<ValueT>& leaf = mConstant[slot];
+        if (leaf.empty() || leaf.front() != value) leaf.assign(TileMask::kSize, value);
+        return leaf.data();
+    }
+
+    typename GridT::ConstAccessor mAccessor;
+    Level mLevel;
+    openvdb::Coord mTile;
+    bool mLoaded = false;
+    VoxelBlock mBlock; ///< of mTile
+    std::array<std::vector<ValueT>, 27> mConstant;
+};
+
+} // namespace vdbtet
