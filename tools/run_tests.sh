@@ -20,10 +20,10 @@ case ${1-} in
     build_and_test release
     ;;
 --ci)
-    tools/install_deps.sh --tests --ci
+    tools/install_deps.sh --tests --ci --bench
     git ls-files '*.h' '*.cc' | xargs clang-format-14 --dry-run --Werror
     build_and_test asan -DVDBTET_WERROR=ON
-    build_and_test release -DVDBTET_WERROR=ON
+    build_and_test release -DVDBTET_WERROR=ON -DVDBTET_BUILD_BENCHMARKS=ON
     ;;
 *)
     echo "usage: tools/run_tests.sh [--ci]" >&2

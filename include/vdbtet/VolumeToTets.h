@@ -40,7 +40,7 @@ struct Options {
     int tiger = 2;
 
     /// Refuse, before the work, a surface that crosses more lattice tiles (8 x 8 x 8 cells) than this. A tile
-    /// takes about 1 kB while the mesh is made.
+    /// takes about 1.5 kB while the mesh is made.
     std::int64_t maxSurfaceTiles = std::int64_t(1) << 22;
 };
 

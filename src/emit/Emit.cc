@@ -97,13 +97,13 @@ public:
         const auto order =
             mSink.concurrent() ? tbb::filter_mode::parallel : tbb::filter_mode::serial_in_order;
         const size_t tokens = 2 * size_t(tbb::this_task_arena::max_concurrency());
-        tbb::parallel_pipeline(tokens, tbb::make_filter<void, Unit>(tbb::filter_mode::serial_in_order, cut) &
-                                           tbb::make_filter<Unit, Parcel*>(
-                                               tbb::filter_mode::parallel,
-                                               [&](const Unit& unit) { return make(unit).release(); }) &
-                                           tbb::make_filter<Parcel*, void>(order, [&](Parcel* parcel) {
-                                               pass(std::unique_ptr<Parcel>(parcel));
-                                           }));
+        using ParcelPtr = std::unique_ptr<Parcel>;
+        tbb::parallel_pipeline(
+            tokens,
+            tbb::make_filter<void, Unit>(tbb::filter_mode::serial_in_order, cut) &
+                tbb::make_filter<Unit, ParcelPtr>(tbb::filter_mode::parallel,
+                                                  [&](const Unit& unit) { return make(unit); }) &
+                tbb::make_filter<ParcelPtr, void>(order, [&](const ParcelPtr& parcel) { pass(*parcel); }));
     }
 
 private:
@@ -149,11 +149,11 @@ private:
         return buffer;
     }
 
-    void pass(std::unique_ptr<Parcel> parcel) {
-        const double done = double(parcel->chunk.firstTet) / double(mNumbering.tets());
+    void pass(Parcel& parcel) {
+        const double done = double(parcel.chunk.firstTet) / double(mNumbering.tets());
         if (mInterrupt.poll(int(100.0 * done))) return;
-        mSink.chunk(parcel->chunk);
-        if (parcel->buffer) mSpare.push(std::move(parcel->buffer));
+        mSink.chunk(parcel.chunk);
+        if (parcel.buffer) mSpare.push(std::move(parcel.buffer));
     }
 
     const Layout& mLayout;
