@@ -214,28 +214,35 @@ void TileEmitter::findIds(const Coord& tile) {
             const int y0 = dy < 0 ? -1 : 8 * dy, y1 = dy == 0 ? 7 : y0;
             for (int lattice = 0; lattice < 2; ++lattice) {
                 for (int x = x0; x <= x1; ++x) {
+                    Slab slabs[3];
+                    for (int z = 0; z < 3; ++z) slabs[z] = slabOf(column[z], lattice, x & 7);
                     for (int y = y0; y <= y1; ++y)
-                        findIds(column, lattice, x, y, mIds.data() + localIndex(lattice, x, y, 0));
+                        findIds(slabs, y & 7, mIds.data() + localIndex(lattice, x, y, 0));
                 }
             }
         }
     }
 }
 
+TileEmitter::Slab TileEmitter::slabOf(const Ids& ids, int lattice, int x) {
+    const TileMask& used = *ids.used[lattice];
+    return {ids.first[lattice] + used.rank(x << 6), used.words[x]};
+}
+
 /// The ids of a row from -1 to 8 in three tiles above each other.
-void TileEmitter::findIds(const Ids (&column)[3], int lattice, int x, int y, std::int64_t* row) const {
-    const int n = TileMask::bit(x & 7, y & 7, 0);
-    const auto first = [&](const Ids& ids) { return ids.first[lattice]; };
-    const auto used = [&](const Ids& ids) -> const TileMask& { return *ids.used[lattice]; };
-    row[-1] = first(column[0]) + used(column[0]).rank(n + 7);
-    const std::int64_t before = first(column[1]) + used(column[1]).rank(n);
-    const unsigned bits = unsigned(used(column[1]).words[n >> 6] >> (n & 63) & 0xff);
+void TileEmitter::findIds(const Slab (&slabs)[3], int y, std::int64_t* row) {
+    const auto idAt = [&](const Slab& slab, int n) {
+        return slab.first + countBits(slab.used & ((std::uint64_t(1) << n) - 1));
+    };
+    row[-1] = idAt(slabs[0], 8 * y + 7);
+    const std::int64_t before = idAt(slabs[1], 8 * y);
+    const unsigned bits = unsigned(slabs[1].used >> (8 * y) & 0xff);
     if (bits == 0xff) {
         for (int z = 0; z < 8; ++z) row[z] = before + z;
     } else {
         for (int z = 0; z < 8; ++z) row[z] = before + countBits(bits & ((1u << z) - 1));
     }
-    row[8] = first(column[2]) + used(column[2]).rank(n);
+    row[8] = idAt(slabs[2], 8 * y);
 }
 
 } // namespace vdbtet

@@ -42,6 +42,12 @@ private:
         const TileMask* used[2] = {nullptr, nullptr}; ///< which vertices have one
     };
 
+    /// Those of a slab of equal x.
+    struct Slab {
+        std::int64_t first;
+        std::uint64_t used;
+    };
+
     void emitSurfaceTile(const openvdb::Coord& tile, TileRef surface, Output& out);
     void emitInteriorTile(const openvdb::Coord& tile, Output& out);
     void emitRow(const openvdb::Coord& tile, int lattice, int row, unsigned used, bool streaming,
@@ -51,7 +57,8 @@ private:
     Ids idsOf(std::int64_t span, int tileZ) const;
     /// Look up the ids of all vertices in and around a tile; those of unused vertices are arbitrary.
     void findIds(const openvdb::Coord& tile);
-    void findIds(const Ids (&column)[3], int lattice, int x, int y, std::int64_t* row) const;
+    static Slab slabOf(const Ids& ids, int lattice, int x);
+    static void findIds(const Slab (&slabs)[3], int y, std::int64_t* row);
 
     const Vertices& mVertices;
     const Numbering& mNumbering;

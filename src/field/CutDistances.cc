@@ -49,8 +49,8 @@ VDBTET_KERNEL inline void nearHalfRoots(const Lanes& lanes, const double (&near)
         // By the rule for ties the cut point may lie just beyond the middle.
         const double side1 = f1[i] >= 0.0 ? 1.0 : -1.0;
         const bool beyond = side[i] == side1;
-        active[i] = beyond | (f0[i] == 0.0) | (f1[i] == 0.0) | (i >= count) ? 0 : 1;
-        root[i] = beyond | (f0[i] != 0.0) ? 1.0 : 0.0;
+        active[i] = (beyond | (f0[i] == 0.0) | (f1[i] == 0.0) | (i >= count)) ? 0 : 1;
+        root[i] = (beyond | (f0[i] != 0.0)) ? 1.0 : 0.0;
         a[i] = 0.0;
         b[i] = 1.0;
         last[i] = 2.0;
@@ -63,7 +63,7 @@ VDBTET_KERNEL inline void nearHalfRoots(const Lanes& lanes, const double (&near)
         for (int i = 0; i < kLanes; ++i) {
             const double secant = (a[i] * f1[i] - b[i] * f0[i]) / (f1[i] - f0[i]);
             const double middle = 0.5 * (a[i] + b[i]);
-            const double x = (secant > a[i]) & (secant < b[i]) ? secant : middle;
+            const double x = ((secant > a[i]) & (secant < b[i])) ? secant : middle;
             const double fx = lanes.evaluate(i, x);
             const bool found =
                 (fx == 0.0) | (std::abs(x - last[i]) < kRootTolerance) | (b[i] - a[i] < kRootTolerance);
