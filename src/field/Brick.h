@@ -23,7 +23,7 @@ public:
         mValues.resize(std::size_t(box.volume()));
         const openvdb::CoordBBox leaves(box.min() >> 3, box.max() >> 3);
         for (auto leaf = leaves.begin(); leaf; ++leaf) {
-            const openvdb::Coord origin(8 * leaf->x(), 8 * leaf->y(), 8 * leaf->z());
+            const openvdb::Coord origin(8 * (*leaf).x(), 8 * (*leaf).y(), 8 * (*leaf).z());
             openvdb::CoordBBox part = openvdb::CoordBBox::createCube(origin, 8);
             part.intersect(box);
             copy(accessor, part);
