@@ -6,6 +6,7 @@
 #include "simd/Stream.h"
 
 #include <tbb/concurrent_queue.h>
+#include <tbb/concurrent_vector.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
@@ -58,16 +59,18 @@ private:
     Place mNext;
 };
 
-/// Memory for chunks of sinks that have none.
-struct Buffer {
-    std::vector<openvdb::Vec3d> points;
-    std::vector<Tet> tets;
-};
-
-/// A chunk on its way to the sink.
+/// A chunk on its way to the sink, and memory for it if the sink has none. Fresh pages cost more than the
+/// tets that fill them, so parcels go round.
 struct Parcel {
     MeshChunk chunk;
-    std::unique_ptr<Buffer> buffer;
+    std::vector<openvdb::Vec3d> points;
+    std::vector<Tet> tets;
+
+    ChunkMemory memory(std::size_t nPoints, std::size_t nTets) {
+        if (points.size() < nPoints) points.resize(nPoints);
+        if (tets.size() < nTets) tets.resize(nTets);
+        return {points.data(), tets.data()};
+    }
 };
 
 using Emitters = tbb::enumerable_thread_specific<std::unique_ptr<TileEmitter>>;
@@ -97,13 +100,11 @@ public:
         const auto order =
             mSink.concurrent() ? tbb::filter_mode::parallel : tbb::filter_mode::serial_in_order;
         const size_t tokens = 2 * size_t(tbb::this_task_arena::max_concurrency());
-        using ParcelPtr = std::unique_ptr<Parcel>;
         tbb::parallel_pipeline(
-            tokens,
-            tbb::make_filter<void, Unit>(tbb::filter_mode::serial_in_order, cut) &
-                tbb::make_filter<Unit, ParcelPtr>(tbb::filter_mode::parallel,
-                                                  [&](const Unit& unit) { return make(unit); }) &
-                tbb::make_filter<ParcelPtr, void>(order, [&](const ParcelPtr& parcel) { pass(*parcel); }));
+            tokens, tbb::make_filter<void, Unit>(tbb::filter_mode::serial_in_order, cut) &
+                        tbb::make_filter<Unit, Parcel*>(tbb::filter_mode::parallel,
+                                                        [&](const Unit& unit) { return make(unit); }) &
+                        tbb::make_filter<Parcel*, void>(order, [&](Parcel* parcel) { pass(*parcel); }));
     }
 
 private:
@@ -114,46 +115,38 @@ private:
         return mNumbering.firstTet[at.span] + kInteriorTets * at.offset;
     }
 
-    std::unique_ptr<Parcel> make(const Unit& unit) {
-        auto parcel = std::make_unique<Parcel>();
+    Parcel* make(const Unit& unit) {
+        Parcel* parcel = nullptr;
+        if (!mSpare.try_pop(parcel)) parcel = mParcels.push_back(std::make_unique<Parcel>())->get();
         MeshChunk& chunk = parcel->chunk;
         chunk.firstPoint = pointsBefore(unit.begin);
         chunk.firstTet = tetsBefore(unit.begin);
         const auto points = std::size_t(pointsBefore(unit.end) - chunk.firstPoint),
                    tets = std::size_t(tetsBefore(unit.end) - chunk.firstTet);
         ChunkMemory memory = mSink.memory(chunk.firstPoint, chunk.firstTet);
-        if (!memory.points || !memory.tets) {
-            parcel->buffer = buffer(points, tets);
-            memory = {parcel->buffer->points.data(), parcel->buffer->tets.data()};
-        }
         // Memory that is not aligned to a tet's half takes plain stores.
-        const bool aligned = reinterpret_cast<std::uintptr_t>(memory.tets) % 16 == 0;
-        Output out{memory.points, memory.tets, !parcel->buffer && aligned};
+        bool streaming = reinterpret_cast<std::uintptr_t>(memory.tets) % 16 == 0;
+        if (!memory.points || !memory.tets) {
+            memory = parcel->memory(points, tets);
+            streaming = false;
+        }
+        Output out{memory.points, memory.tets, streaming};
         TileEmitter& emitter = *mEmitters.local();
         for (Place at = unit.begin; at.span != unit.end.span || at.offset != unit.end.offset;) {
             out = emitter.emit(at.span, at.offset, out);
             if (++at.offset == mLayout.spans[at.span].count) at = {at.span + 1, 0};
         }
-        if (out.streaming) drainStores();
+        if (streaming) drainStores();
         chunk.points = {memory.points, points};
         chunk.tets = {memory.tets, tets};
         return parcel;
-    }
-
-    /// Fresh pages cost more than the tets that fill them, so buffers go round.
-    std::unique_ptr<Buffer> buffer(std::size_t points, std::size_t tets) {
-        std::unique_ptr<Buffer> buffer;
-        if (!mSpare.try_pop(buffer)) buffer = std::make_unique<Buffer>();
-        if (buffer->points.size() < points) buffer->points.resize(points);
-        if (buffer->tets.size() < tets) buffer->tets.resize(tets);
-        return buffer;
     }
 
     void pass(Parcel& parcel) {
         const double done = double(parcel.chunk.firstTet) / double(mNumbering.tets());
         if (mInterrupt.poll(int(100.0 * done))) return;
         mSink.chunk(parcel.chunk);
-        if (parcel.buffer) mSpare.push(std::move(parcel.buffer));
+        mSpare.push(&parcel);
     }
 
     const Layout& mLayout;
@@ -161,7 +154,8 @@ private:
     Emitters& mEmitters;
     MeshSink& mSink;
     Interrupt& mInterrupt;
-    tbb::concurrent_queue<std::unique_ptr<Buffer>> mSpare;
+    tbb::concurrent_vector<std::unique_ptr<Parcel>> mParcels; ///< all, wherever an exception leaves them
+    tbb::concurrent_queue<Parcel*> mSpare;
 };
 
 } // namespace

@@ -1,10 +1,12 @@
 /// A grid as a field: where the surface is looked for, the two samplers, and the root finder.
 #include "support/Catch.h"
 #include "support/Fixtures.h"
-
 #include "support/Stages.h"
 
+#include "destinations/LocalVertices.h"
 #include "field/GridField.h"
+
+#include <openvdb/tools/Interpolation.h>
 
 #include <algorithm>
 #include <cmath>
@@ -150,6 +152,33 @@ TEST_CASE("sampling voxels and sampling points agree", "[field]") {
         }
     }
     REQUIRE(cuts > 1000);
+}
+
+TEST_CASE("points are sampled as OpenVDB samples them, whether few voxels lie around a tile or many",
+          "[field]") {
+    const double cell = GENERATE(0.37, 2.3, 9.0);
+    CAPTURE(cell);
+    const auto grid = levelSet(noiseBall(5, Vec3d(0.0), 11.0, 3.0), rotatedTransform(0.7));
+    const Frame frame = makeFrame(grid->transform(), cell * shortestVoxelEdge(grid->transform()));
+    TrilinearSampler<openvdb::FloatGrid> sampler(*grid, frame, Level{0.0, true});
+    int inside = 0, outside = 0;
+    const openvdb::CoordBBox box(Coord(-3), Coord(2));
+    for (auto tile = box.begin(); tile; ++tile) {
+        PaddedMask masks[2];
+        sampler.signs(*tile, masks[bcc::A], masks[bcc::B]);
+        for (int lattice = 0; lattice < 2; ++lattice) {
+            for (int n = 0; n < TileMask::kSize; ++n) {
+                const Vec3d local = homeOf(localIndex(lattice, n));
+                const Vec3d at = frame.toIndex * (8.0 * (*tile).asVec3d() + local);
+                const float value = openvdb::tools::BoxSampler::sample(grid->tree(), at);
+                if (std::abs(value) < 1e-4f) continue;
+                REQUIRE(masks[lattice].test(PaddedMask::bit(n)) == (value < 0.0f));
+                ++(value < 0.0f ? inside : outside);
+            }
+        }
+    }
+    REQUIRE(inside > 10);
+    REQUIRE(outside > 1000);
 }
 
 TEST_CASE("the root finder stays in its bracket and meets hard functions", "[field]") {
