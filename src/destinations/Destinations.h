@@ -16,7 +16,7 @@
 namespace vdbtet {
 
 /// @brief The moves of the manifold vertices from their places in the lattice.
-/// @details Later stages read nothing but move(): how a move is stored is this stage's own affair.
+/// @details Later stages read nothing but move(); Algorithm 5 alone asks for directions and distances, too.
 struct Destinations {
     std::vector<std::array<std::int64_t, 2>>
         first; ///< the first move of a tile and lattice, and the end; they go by bit of Labels::manifold

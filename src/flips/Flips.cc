@@ -1,5 +1,5 @@
 /// @file Flips.cc
-/// Algorithms 4 and 5 (paper, sections 4.4 and 6.2), an octahedron at a time.
+/// Algorithms 4 and 5 (paper, sections 4.4 and 6.2), a tile at a time.
 #include "flips/Flips.h"
 
 #include "flips/Slices.h"
@@ -34,7 +34,7 @@ ExtraFlip chooseExtraSlice(const LocalVertices& vertices, const LocalOctahedron&
     const auto isFar = [&](int v) {
         return vertices.manifold(v) && destinations.distances[vertices.moveOf(v)] >= kExtremeMove;
     };
-    /// Whether v moves far in the direction from another vertex to v2.
+    // Whether v moves far in the direction from another vertex to v2.
     const auto movesFar = [&](int v, int from) {
         return isFar(v) && destinations.directions[vertices.moveOf(v)] == directionBetween(from, v2);
     };

@@ -6,7 +6,6 @@
 #include "Parallel.h"
 #include "bcc/Lattice.h"
 #include "destinations/LocalVertices.h"
-#include "simd/Isa.h"
 
 #include <array>
 #include <cstdint>
@@ -58,13 +57,6 @@ struct ExtraFlip {
     bool conflict = false; ///< and a further vertex is manifold
     bcc::Slice slice = bcc::S;
 };
-
-/// @brief Algorithm 4: the slices of octahedra whose spines join an inside and an outside vertex.
-/// @details Decides by the two tets at the inside end alone: the whole ring is manifold, for each of its
-/// vertices has a cut edge to an end that is not. Ties within 1e-5 degrees go to the other criterion, then to
-/// slice A.
-void chooseActiveSlices(const LocalVertices& vertices, const std::vector<LocalOctahedron>& octahedra,
-                        std::vector<bcc::Slice>& slices, Isa isa = bestIsa());
 
 /// @brief Algorithm 5 with the last resort of section 6.2.2.
 /// @details The slice is the one whose new edge ends where v2 moves away from: A in case 1, B in case 2 of

@@ -2,7 +2,6 @@
 /// Qualities one at a time and in lanes.
 #include "flips/Slices.h"
 
-#include "flips/Flips.h"
 #include "quality/Dihedral.h"
 
 #include <vdbtet/Quality.h>
@@ -108,7 +107,8 @@ SliceQuality sliceQuality(const LocalVertices& vertices, const LocalOctahedron& 
 
 bool better(const SliceQuality& a, const SliceQuality& b) {
     if (a.inverted != b.inverted) return b.inverted;
-    // Away from ties cosines decide alone; 1e-6 of a cosine is more than any tie of angles.
+    // Away from ties cosines decide alone; 1e-6 of a cosine is more than any tie of angles, and than what the
+    // cosine of kMinAngle is rounded by.
     constexpr double kClear = 1e-6, kMinCos = 0.98002895910;
     const auto clear = [](double x, double y) { return std::abs(x - y) > kClear; };
     if (clear(a.maxCos, b.maxCos) && clear(a.minCos, b.minCos) && clear(a.maxCos, kMinCos) &&

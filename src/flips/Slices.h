@@ -4,6 +4,9 @@
 #pragma once
 
 #include "destinations/LocalVertices.h"
+#include "simd/Isa.h"
+
+#include <vector>
 
 namespace vdbtet {
 
@@ -18,5 +21,12 @@ SliceQuality sliceQuality(const LocalVertices& vertices, const LocalOctahedron& 
 
 /// The policy of Algorithm 4, made safe against inverted tets and rounding.
 bool better(const SliceQuality& a, const SliceQuality& b);
+
+/// @brief Algorithm 4: the slices of octahedra whose spines join an inside and an outside vertex.
+/// @details Decides by the two tets at the inside end alone: the whole ring is manifold, for each of its
+/// vertices has a cut edge to an end that is not. Ties within 1e-5 degrees go to the other criterion, then to
+/// slice A.
+void chooseActiveSlices(const LocalVertices& vertices, const std::vector<LocalOctahedron>& octahedra,
+                        std::vector<bcc::Slice>& slices, Isa isa = bestIsa());
 
 } // namespace vdbtet

@@ -3,6 +3,7 @@
 #include "support/Catch.h"
 
 #include "flips/Flips.h"
+#include "flips/Slices.h"
 
 #include <vdbtet/Quality.h>
 

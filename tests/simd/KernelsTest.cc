@@ -5,7 +5,7 @@
 
 #include "destinations/Destinations.h"
 #include "field/VoxelBlock.h"
-#include "flips/Flips.h"
+#include "flips/Slices.h"
 #include "quality/AngleSum.h"
 
 #include <cstring>
