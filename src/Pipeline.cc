@@ -6,6 +6,7 @@
 #include "destinations/Destinations.h"
 #include "emit/Emit.h"
 #include "flips/Flips.h"
+#include "grading/Grading.h"
 #include "labels/Labels.h"
 #include "numbering/Numbering.h"
 #include "tiles/Layout.h"
@@ -69,6 +70,14 @@ MeshTotals totalsOf(const Numbering& numbering, const Frame& frame) {
     return totals;
 }
 
+/// The level of the coarsest octants, 2^level cells an edge.
+int topLevel(const Options& options, double spacing, const Layout& layout) {
+    if (!options.grade) return 0;
+    const int fitting = coarsestLevel(layout);
+    if (!options.maxSize) return fitting;
+    return std::min(fitting, int(std::floor(std::log2(*options.maxSize / spacing))));
+}
+
 } // namespace
 
 void runPipeline(const Field& field, const Frame& frame, const Options& options, MeshSink& sink,
@@ -113,11 +122,17 @@ void runPipeline(const Field& field, const Frame& frame, const Options& options,
     report.extraFlips = flips.extra;
     report.lastResortFlips = flips.lastResort;
     report.conflicts = flips.conflicts;
+    const int top = topLevel(options, frame.spacing, layout);
+    const Grading grading =
+        stage("grading", [&] { return gradeInterior(layout, signs, labels, top, interrupt); });
+    if (report.cancelled) return;
     const Numbering numbering =
-        stage("numbering", [&] { return numberMesh(vertices, flips, frame, interrupt); });
+        stage("numbering", [&] { return numberMesh(vertices, flips, grading, frame, interrupt); });
     if (report.cancelled) return;
     report.points = numbering.points();
     report.tets = numbering.tets();
+    report.tetsOfLevel = numbering.tetsOfLevel;
+    while (report.tetsOfLevel.size() > 1 && report.tetsOfLevel.back() == 0) report.tetsOfLevel.pop_back();
     report.ambiguous = numbering.ambiguous;
     report.bounds = numbering.bounds;
     if (report.tets == 0) {
@@ -132,8 +147,8 @@ void runPipeline(const Field& field, const Frame& frame, const Options& options,
     const bool wantsChunks = stage("begin", [&] { return sink.begin(totalsOf(numbering, frame)); });
     if (report.cancelled) return;
     Measure measure = stage(wantsChunks ? "emit" : "measure", [&] {
-        return wantsChunks ? emitMesh(vertices, flips, numbering, frame, sink, interrupt)
-                           : measureMesh(vertices, flips, numbering, frame, interrupt);
+        return wantsChunks ? emitMesh(vertices, flips, grading, numbering, frame, sink, interrupt)
+                           : measureMesh(vertices, flips, grading, numbering, frame, interrupt);
     });
     if (report.cancelled) return;
     report.boundaryTriangles = measure.boundaryTriangles;

@@ -27,6 +27,8 @@ void checkOptions(const Options& options) {
     if (options.tiger != 1 && options.tiger != 2) throw BadOption("the TIGER version must be 1 or 2");
     if (options.isovalue && !std::isfinite(*options.isovalue))
         throw BadOption("the isovalue must be a finite number");
+    if (options.maxSize && !options.grade)
+        throw BadOption("a maximal size is given, but the inside is not to be graded");
     if (options.maxSurfaceTiles < 1 || options.maxSurfaceTiles > kMostSurfaceTiles) {
         throw BadOption("the limit on surface tiles must be from 1 to 2^30");
     }
@@ -85,6 +87,10 @@ Report meshGrid(const GridT& grid, MeshSink& sink, const Options& options,
     report.voxelSize = shortestVoxelEdge(grid.transform());
     report.spacing = options.spacing.value_or(options.voxels * report.voxelSize);
     const Frame frame = makeFrame(grid.transform(), report.spacing);
+    if (options.maxSize && !(*options.maxSize >= report.spacing)) {
+        throw BadOption("the maximal size is smaller than the spacing of the lattice, which is the size of "
+                        "tets at the surface");
+    }
     const Level level = chooseLevel(grid, double(grid.background()), options, report);
     const auto start = std::chrono::steady_clock::now();
     requireInside(scanValues(grid), level);

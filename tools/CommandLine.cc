@@ -78,6 +78,13 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
         ->check(positive)
         ->type_name("VOXELS")
         ->excludes(spacing);
+    auto* grade = app.add_flag("-g,--grade", options.grade,
+                               "Let the tets grow towards the inside, up to 2 x a layer; the surface stays "
+                               "as it is");
+    app.add_option("--max-size", options.maxSize, "With --grade: the longest edge, in world units")
+        ->check(positive)
+        ->type_name("LENGTH")
+        ->needs(grade);
     app.add_option("--tiger", options.tiger,
                    "Version of the method, 1 or 2. Default: 2, with the better angles")
         ->check(CLI::IsMember({1, 2}).description(""))

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <array>
+#include <cmath>
 
 namespace {
 
@@ -34,6 +35,11 @@ std::string asText(const CommandLine& line, const Summary& summary) {
     add("spacing", fmt::format("{:g}, in voxels {:g}", r.spacing, r.spacing / r.voxelSize));
     add("mesh",
         fmt::format("{} points, {} tets, {} boundary triangles", r.points, r.tets, r.boundaryTriangles));
+    if (line.options.grade) {
+        const std::size_t top = r.tetsOfLevel.empty() ? 0 : r.tetsOfLevel.size() - 1;
+        add("graded", fmt::format("{} levels, longest edges from {:g} to {:g}", top + 1, r.spacing,
+                                  std::ldexp(r.spacing, static_cast<int>(top))));
+    }
     const auto bound = fmt::format("proven to lie between {:.2f} and {:.2f}", r.angleMin, r.angleMax);
     add("angles", r.tets == 0
                       ? "none"
@@ -74,6 +80,7 @@ std::string asJson(const CommandLine& line, const Summary& summary) {
         {"tiger", r.tiger},
         {"points", r.points},
         {"tets", r.tets},
+        {"tetsOfLevel", r.tetsOfLevel},
         {"boundaryTriangles", r.boundaryTriangles},
         {"ambiguous", r.ambiguous},
         {"conflicts", r.conflicts},

@@ -39,6 +39,13 @@ struct Options {
     /// TIGER version: 2 flips the worst-case octahedra (paper, section 6), 1 does not.
     int tiger = 2;
 
+    /// Coarsen the inside away from the surface: octree levels, each twice as large as the last, as fast as
+    /// balance allows. The boundary stays the same, bit for bit; the number of tets grows with the surface
+    /// instead of the volume. Tets between levels have angles in [45, 120] degrees.
+    bool grade = false;
+    /// With grade: no edge is longer than this, a world length. Default: no limit.
+    std::optional<double> maxSize;
+
     /// Refuse, before the work, a surface that crosses more lattice tiles (8 x 8 x 8 cells) than this. A tile
     /// takes about 1.5 kB while the mesh is made.
     std::int64_t maxSurfaceTiles = std::int64_t(1) << 22;
@@ -58,6 +65,9 @@ struct Report {
 
     std::int64_t points = 0;
     std::int64_t tets = 0;
+    /// Tets by level: the longest edge of those of level l is 2^l times the spacing. Only the first unless
+    /// the inside was graded.
+    std::vector<std::int64_t> tetsOfLevel;
     std::int64_t boundaryTriangles = 0; ///< faces of exactly one tet
     std::int64_t ambiguous = 0;         ///< tets of four manifold vertices; dropped (paper, section 2.5)
     std::int64_t conflicts = 0;   ///< octahedra of Algorithm 5 with a fourth manifold vertex (section 6.2.1)

@@ -35,6 +35,11 @@ public:
 
     PaddedMask() = default;
     explicit PaddedMask(const MasksAround& around);
+    static PaddedMask filled() {
+        PaddedMask mask;
+        for (std::uint16_t& row : mask.rows) row = kRow;
+        return mask;
+    }
 
     bool test(int n) const { return rows[n >> 4] >> (n & 15) & 1; }
     void set(int n, bool on = true) { rows[n >> 4] |= std::uint16_t(unsigned(on) << (n & 15)); }

@@ -28,6 +28,11 @@ const TileMask& borderOf(int slot) {
 }
 
 void LocalStates::load(const Vertices& vertices, TileRef tile) {
+    if (tile == kInside) {
+        mManifold.fill(PaddedMask());
+        mInterior.fill(PaddedMask::filled());
+        return;
+    }
     const Surroundings around(vertices.layout.neighbours[tile]);
     for (int lattice = 0; lattice < 2; ++lattice) {
         mManifold[lattice] = PaddedMask(around.masks(vertices.labels.manifold, lattice));

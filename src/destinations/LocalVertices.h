@@ -63,7 +63,11 @@ constexpr LocalOctahedron localOctahedron(bcc::Lattice lattice, int axis, int ba
 /// The states of a tile's vertices and of a border of one around it.
 class LocalStates {
 public:
+    /// @param tile  a surface tile, or kInside for one far from any
     void load(const Vertices& vertices, TileRef tile);
+
+    /// Forget the interior of L_B but for these.
+    void keepCells(const PaddedMask& cells) { mInterior[bcc::B].intersect(cells); }
 
     State state(int local) const {
         return interior(local) ? State::Inside : manifold(local) ? State::Manifold : State::Outside;

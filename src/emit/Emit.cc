@@ -19,11 +19,11 @@ namespace vdbtet {
 
 namespace {
 
-/// A chunk is this many tiles, about 98,000 tets in the interior: small enough for the cache, large enough
-/// that threads seldom wait for each other at the file.
-constexpr std::int64_t kTilesPerChunk = 16;
+/// A chunk has at least this many tets, but for the last: few enough for the cache, enough that threads
+/// seldom wait for each other at the file.
+constexpr std::int64_t kTetsPerChunk = std::int64_t(1) << 16;
 
-/// A place in the layout, before a tile.
+/// A place in the spans of all tiers, before a tile.
 struct Place {
     std::int64_t span = 0;
     std::int64_t offset = 0; ///< of the tile in its span
@@ -34,19 +34,38 @@ struct Unit {
     Place begin, end;
 };
 
-/// Cuts the layout into units.
+/// A span where it lies.
+struct Located {
+    int tier;
+    std::int64_t span; ///< in the tier
+};
+
+Located locate(const Numbering& numbering, std::int64_t span) {
+    int tier = 0;
+    while (span >= numbering.firstSpan[tier + 1]) ++tier;
+    return {tier, span - numbering.firstSpan[tier]};
+}
+
+/// Cuts the spans into units.
 class Units {
 public:
-    explicit Units(const Layout& layout) : mLayout(layout) {}
+    Units(const Grading& grading, const Numbering& numbering) : mGrading(grading), mNumbering(numbering) {}
 
-    bool done() const { return mNext.span == std::int64_t(mLayout.spans.size()); }
+    bool done() const { return mNext.span == mNumbering.firstSpan.back(); }
 
     Unit next() {
         Unit unit{mNext, mNext};
-        for (std::int64_t tiles = 0; tiles < kTilesPerChunk && !done();) {
-            const std::int64_t left = mLayout.spans[mNext.span].count - mNext.offset;
-            const std::int64_t taken = std::min(left, kTilesPerChunk - tiles);
-            tiles += taken;
+        for (std::int64_t tets = 0; tets < kTetsPerChunk && !done();) {
+            const Located at = locate(mNumbering, mNext.span);
+            const Span& span = mGrading.tiers[at.tier].spans[at.span];
+            std::int64_t left = span.count - mNext.offset, taken = left;
+            if (span.tile < 0) {
+                const std::int64_t perTile = mNumbering.runTets;
+                taken = std::min(left, (kTetsPerChunk - tets + perTile - 1) / perTile);
+                tets += perTile * taken;
+            } else {
+                tets += mNumbering.firstTet[mNext.span + 1] - mNumbering.firstTet[mNext.span];
+            }
             mNext.offset += taken;
             if (taken == left) mNext = {mNext.span + 1, 0};
         }
@@ -55,7 +74,8 @@ public:
     }
 
 private:
-    const Layout& mLayout;
+    const Grading& mGrading;
+    const Numbering& mNumbering;
     Place mNext;
 };
 
@@ -75,23 +95,22 @@ struct Parcel {
 
 using Emitters = tbb::enumerable_thread_specific<std::unique_ptr<TileEmitter>>;
 
-Measure sumOf(Emitters& emitters, const Layout& layout) {
+Measure sumOf(Emitters& emitters, const Numbering& numbering) {
     Measure sum;
     for (auto& emitter : emitters) sum.add(emitter->measured());
-    for (const Layout::Span& span : layout.spans) {
-        if (span.surface < 0) sum.angles.addLatticeTets(kInteriorTets * span.count);
-    }
+    for (int kind = 0; kind < kTetKinds; ++kind)
+        sum.angles.addKnown(kAnglesOfKind[kind], numbering.kinds[kind]);
     return sum;
 }
 
 class Emission {
 public:
-    Emission(const Layout& layout, const Numbering& numbering, Emitters& emitters, MeshSink& sink,
+    Emission(const Grading& grading, const Numbering& numbering, Emitters& emitters, MeshSink& sink,
              Interrupt& interrupt)
-        : mLayout(layout), mNumbering(numbering), mEmitters(emitters), mSink(sink), mInterrupt(interrupt) {}
+        : mGrading(grading), mNumbering(numbering), mEmitters(emitters), mSink(sink), mInterrupt(interrupt) {}
 
     void run() {
-        Units units(mLayout);
+        Units units(mGrading, mNumbering);
         const auto cut = [&](tbb::flow_control& flow) -> Unit {
             if (!units.done() && !mInterrupt.stopped()) return units.next();
             flow.stop();
@@ -109,10 +128,10 @@ public:
 
 private:
     std::int64_t pointsBefore(const Place& at) const {
-        return mNumbering.firstPoint[at.span] + kInteriorPoints * at.offset;
+        return mNumbering.firstPoint[at.span] + mNumbering.runPoints * at.offset;
     }
     std::int64_t tetsBefore(const Place& at) const {
-        return mNumbering.firstTet[at.span] + kInteriorTets * at.offset;
+        return mNumbering.firstTet[at.span] + mNumbering.runTets * at.offset;
     }
 
     Parcel* make(const Unit& unit) {
@@ -133,8 +152,9 @@ private:
         Output out{memory.points, memory.tets, streaming};
         TileEmitter& emitter = *mEmitters.local();
         for (Place at = unit.begin; at.span != unit.end.span || at.offset != unit.end.offset;) {
-            out = emitter.emit(at.span, at.offset, out);
-            if (++at.offset == mLayout.spans[at.span].count) at = {at.span + 1, 0};
+            const Located span = locate(mNumbering, at.span);
+            out = emitter.emit(span.tier, span.span, at.offset, out);
+            if (++at.offset == mGrading.tiers[span.tier].spans[span.span].count) at = {at.span + 1, 0};
         }
         if (streaming) drainStores();
         chunk.points = {memory.points, points};
@@ -149,7 +169,7 @@ private:
         mSpare.push(&parcel);
     }
 
-    const Layout& mLayout;
+    const Grading& mGrading;
     const Numbering& mNumbering;
     Emitters& mEmitters;
     MeshSink& mSink;
@@ -160,20 +180,23 @@ private:
 
 } // namespace
 
-Measure emitMesh(const Vertices& vertices, const Flips& flips, const Numbering& numbering, const Frame& frame,
-                 MeshSink& sink, Interrupt& interrupt) {
-    Emitters emitters([&] { return std::make_unique<TileEmitter>(vertices, flips, numbering, frame); });
-    Emission(vertices.layout, numbering, emitters, sink, interrupt).run();
-    return sumOf(emitters, vertices.layout);
+Measure emitMesh(const Vertices& vertices, const Flips& flips, const Grading& grading,
+                 const Numbering& numbering, const Frame& frame, MeshSink& sink, Interrupt& interrupt) {
+    Emitters emitters(
+        [&] { return std::make_unique<TileEmitter>(vertices, flips, grading, numbering, frame); });
+    Emission(grading, numbering, emitters, sink, interrupt).run();
+    return sumOf(emitters, numbering);
 }
 
-Measure measureMesh(const Vertices& vertices, const Flips& flips, const Numbering& numbering,
-                    const Frame& frame, Interrupt& interrupt) {
-    Emitters emitters([&] { return std::make_unique<TileEmitter>(vertices, flips, numbering, frame); });
-    parallelRanges(vertices.layout.surfaceCount(), interrupt, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t t = begin; t < end; ++t) emitters.local()->measure(TileRef(t));
+Measure measureMesh(const Vertices& vertices, const Flips& flips, const Grading& grading,
+                    const Numbering& numbering, const Frame& frame, Interrupt& interrupt) {
+    Emitters emitters(
+        [&] { return std::make_unique<TileEmitter>(vertices, flips, grading, numbering, frame); });
+    // Surface tiles are in the first tier.
+    parallelRanges(grading.tiers[0].spans.size(), interrupt, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t span = begin; span < end; ++span) emitters.local()->measure(0, span);
     });
-    return sumOf(emitters, vertices.layout);
+    return sumOf(emitters, numbering);
 }
 
 } // namespace vdbtet

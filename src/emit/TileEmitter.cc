@@ -11,8 +11,6 @@ using openvdb::Vec3d;
 
 namespace {
 
-const TileMask kNone = TileMask::filled(false), kAll = TileMask::filled(true);
-
 struct Cached {
     static void store(Tet& tet, std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t d) {
         tet = {a, b, c, d};
@@ -108,63 +106,89 @@ Tet* writeInteriorTile(const std::int64_t* ids, Tet* tets) {
 
 } // namespace
 
-Output TileEmitter::emit(std::int64_t span, std::int64_t offset, Output out) {
-    const Layout::Span& s = mVertices.layout.spans[span];
+Output TileEmitter::emit(int tier, std::int64_t span, std::int64_t offset, Output out) {
+    const Span& s = mGrading.tiers[tier].spans[span];
     const Coord tile = s.first.offsetBy(0, 0, int(offset));
-    findIds(tile);
-    if (s.surface >= 0) {
-        emitSurfaceTile(tile, s.surface, out);
-    } else {
-        emitInteriorTile(tile, out);
+    mIds.load(tier, tile);
+    if (mGrading.top == 0 && s.tile < 0) {
+        emitRunTile(tile, out);
+        return out;
     }
+    const TileRef surface = mGrading.surfaceOf(tier, s.tile);
+    const bool hasCells = load(tier, tile, surface);
+    if (surface >= 0) {
+        mMeasurer.measure(surface, mTets, mStates);
+        emitSurfacePoints(tile, s.tile, surface, out);
+    } else {
+        emitPoints(tier, tile, bcc::A,
+                   s.tile < 0 ? mNumbering.usedInRun[bcc::A] : mNumbering.usedA[tier][s.tile], false, out);
+    }
+    if (hasCells) emitCells(out);
+    if (mGrading.top > 0) emitOctants(out);
     return out;
 }
 
-void TileEmitter::measure(TileRef surface) {
-    mStates.load(mVertices, surface);
-    mTets.load(surface, mStates);
+void TileEmitter::measure(int tier, std::int64_t span) {
+    const Span& s = mGrading.tiers[tier].spans[span];
+    const TileRef surface = mGrading.surfaceOf(tier, s.tile);
+    if (surface < 0) return;
+    load(tier, s.first, surface);
     mMeasurer.measure(surface, mTets, mStates);
 }
 
-void TileEmitter::emitSurfaceTile(const Coord& tile, TileRef surface, Output& out) {
+bool TileEmitter::load(int tier, const Coord& tile, TileRef surface) {
+    const bool graded = mGrading.top > 0;
+    if (graded) {
+        mGrading.load(mVertices.layout, mVertices.signs, tier, tile, mOctants);
+        if (surface < 0 && (tier > 0 || !mOctants.exists(0).any())) return false;
+    }
+    mStates.load(mVertices, surface);
+    if (graded) mStates.keepCells(mOctants.exists(0));
+    mTets.load(surface, mStates);
+    return true;
+}
+
+void TileEmitter::emitRunTile(const Coord& tile, Output& out) {
+    for (int lattice = 0; lattice < 2; ++lattice)
+        emitPoints(0, tile, lattice, mNumbering.usedInRun[lattice], out.streaming, out);
+    const std::int64_t* ids = mIds.all();
+    out.tets = out.streaming ? writeInteriorTile<Streaming>(ids, out.tets)
+                             : writeInteriorTile<Cached>(ids, out.tets);
+}
+
+void TileEmitter::emitSurfacePoints(const Coord& tile, TileRef record, TileRef surface, Output& out) {
     for (int lattice = 0; lattice < 2; ++lattice) {
-        const TileMask& used = mNumbering.used[surface][lattice];
+        const TileMask& used = lattice == bcc::A ? mNumbering.usedA[0][record] : mNumbering.usedB[surface];
         const TileMask& manifold = mVertices.labels.manifold[surface][lattice];
         std::int64_t move = mVertices.destinations.first[surface][lattice];
         const Vec3d origin(8.0 * tile.x(), 8.0 * tile.y(), 8.0 * tile.z());
-        Vec3d* first = out.points;
-        for (int row = 0; row < 64; ++row) {
-            const unsigned bits = unsigned(used.words[row >> 3] >> (8 * (row & 7)) & 0xff);
-            emitRow(tile, lattice, row, bits, false, out.points);
-            out.points += countBits(bits);
-        }
+        Vec3d* const first = out.points;
+        emitPoints(0, tile, lattice, used, false, out);
         manifold.forEach([&](int n) {
             const Vec3d home = homeOf(localIndex(lattice, n));
             const Vec3d to = home + mVertices.destinations.move(move++);
             if (used.test(n)) first[used.rank(n)] = mFrame.world(origin + to);
         });
     }
-    measure(surface);
-    out.tets = out.streaming ? writeSurfaceTile<Streaming>(mTets, mIds.data(), out.tets)
-                             : writeSurfaceTile<Cached>(mTets, mIds.data(), out.tets);
 }
 
-void TileEmitter::emitInteriorTile(const Coord& tile, Output& out) {
-    for (int lattice = 0; lattice < 2; ++lattice) {
-        for (int row = 0; row < 64; ++row, out.points += 8)
-            emitRow(tile, lattice, row, 0xff, out.streaming, out.points);
+/// The places in the lattice of the vertices @a used of a tile.
+void TileEmitter::emitPoints(int tier, const Coord& tile, int lattice, const TileMask& used, bool streaming,
+                             Output& out) {
+    for (int row = 0; row < 64; ++row) {
+        const unsigned bits = unsigned(used.words[row >> 3] >> (8 * (row & 7)) & 0xff);
+        emitRow(tier, tile, lattice, row, bits, streaming, out.points);
+        out.points += countBits(bits);
     }
-    out.tets = out.streaming ? writeInteriorTile<Streaming>(mIds.data(), out.tets)
-                             : writeInteriorTile<Cached>(mIds.data(), out.tets);
 }
 
-/// The places in the lattice of the vertices @a used of a row. The sums are those of Frame::world(), in its
-/// order.
-void TileEmitter::emitRow(const Coord& tile, int lattice, int row, unsigned used, bool streaming,
+/// Those of a row. The sums are those of Frame::world(), in its order.
+void TileEmitter::emitRow(int tier, const Coord& tile, int lattice, int row, unsigned used, bool streaming,
                           Vec3d* points) const {
     if (used == 0) return;
-    const double shift = 0.5 * lattice, x = 8.0 * tile.x() + ((row >> 3) + shift),
-                 y = 8.0 * tile.y() + ((row & 7) + shift), z = 8.0 * tile.z();
+    const double unit = double(std::int64_t(1) << 3 * tier), shift = 0.5 * lattice;
+    const double x = unit * (8.0 * tile.x() + ((row >> 3) + shift)),
+                 y = unit * (8.0 * tile.y() + ((row & 7) + shift)), z = 8.0 * tile.z();
     double start[3], step[3];
     for (int i = 0; i < 3; ++i) {
         start[i] = mFrame.toWorld(i, 0) * x + mFrame.toWorld(i, 1) * y;
@@ -172,7 +196,8 @@ void TileEmitter::emitRow(const Coord& tile, int lattice, int row, unsigned used
     }
     double places[8][3];
     for (int k = 0; k < 8; ++k) {
-        for (int i = 0; i < 3; ++i) places[k][i] = start[i] + step[i] * (z + (k + shift)) + mFrame.origin[i];
+        for (int i = 0; i < 3; ++i)
+            places[k][i] = start[i] + step[i] * (unit * (z + (k + shift))) + mFrame.origin[i];
     }
     for (; used != 0; used &= used - 1, ++points) {
         const auto& place = places[lowestBit(used)];
@@ -186,63 +211,23 @@ void TileEmitter::emitRow(const Coord& tile, int lattice, int row, unsigned used
     }
 }
 
-TileEmitter::Ids TileEmitter::idsOf(std::int64_t span, int tileZ) const {
-    Ids ids;
-    ids.used[bcc::A] = ids.used[bcc::B] = &kNone;
-    if (span < 0) return ids;
-    const Layout::Span& s = mVertices.layout.spans[span];
-    ids.first[bcc::A] = mNumbering.firstPoint[span];
-    if (s.surface < 0) {
-        ids.first[bcc::A] += kInteriorPoints * (std::int64_t(tileZ) - s.first.z());
-        ids.used[bcc::A] = ids.used[bcc::B] = &kAll;
-    } else {
-        for (int lattice = 0; lattice < 2; ++lattice)
-            ids.used[lattice] = &mNumbering.used[s.surface][lattice];
-    }
-    ids.first[bcc::B] = ids.first[bcc::A] + ids.used[bcc::A]->count();
-    return ids;
+void TileEmitter::emitCells(Output& out) {
+    const std::int64_t* ids = mIds.all();
+    out.tets = out.streaming ? writeSurfaceTile<Streaming>(mTets, ids, out.tets)
+                             : writeSurfaceTile<Cached>(mTets, ids, out.tets);
+    if (mGrading.top == 0) return;
+    forEachTetOfFringe(mOctants, mStates.interiorMask(bcc::B).core(),
+                       [&](TetKind, int a, int b, int c, int d) {
+                           *out.tets++ = {ids[localIndex(bcc::B, a)], mIds.at(b), mIds.at(c), mIds.at(d)};
+                       });
 }
 
-void TileEmitter::findIds(const Coord& tile) {
-    const auto spans = mVertices.layout.spansAround(tile);
-    for (int dx = -1; dx <= 1; ++dx) {
-        for (int dy = -1; dy <= 1; ++dy) {
-            Ids column[3];
-            for (int dz = -1; dz <= 1; ++dz)
-                column[dz + 1] = idsOf(spans[neighbourSlot(dx, dy, dz)], tile.z() + dz);
-            const int x0 = dx < 0 ? -1 : 8 * dx, x1 = dx == 0 ? 7 : x0;
-            const int y0 = dy < 0 ? -1 : 8 * dy, y1 = dy == 0 ? 7 : y0;
-            for (int lattice = 0; lattice < 2; ++lattice) {
-                for (int x = x0; x <= x1; ++x) {
-                    Slab slabs[3];
-                    for (int z = 0; z < 3; ++z) slabs[z] = slabOf(column[z], lattice, x & 7);
-                    for (int y = y0; y <= y1; ++y)
-                        findIds(slabs, y & 7, mIds.data() + localIndex(lattice, x, y, 0));
-                }
-            }
-        }
+void TileEmitter::emitOctants(Output& out) {
+    for (int level = 1; level <= mOctants.coarsest(); ++level) {
+        forEachTetOfLevel(mOctants, level, [&](TetKind, int a, int b, int c, int d) {
+            *out.tets++ = {mIds.at(a), mIds.at(b), mIds.at(c), mIds.at(d)};
+        });
     }
-}
-
-TileEmitter::Slab TileEmitter::slabOf(const Ids& ids, int lattice, int x) {
-    const TileMask& used = *ids.used[lattice];
-    return {ids.first[lattice] + used.rank(x << 6), used.words[x]};
-}
-
-/// The ids of a row from -1 to 8 in three tiles above each other.
-void TileEmitter::findIds(const Slab (&slabs)[3], int y, std::int64_t* row) {
-    const auto idAt = [&](const Slab& slab, int n) {
-        return slab.first + countBits(slab.used & ((std::uint64_t(1) << n) - 1));
-    };
-    row[-1] = idAt(slabs[0], 8 * y + 7);
-    const std::int64_t before = idAt(slabs[1], 8 * y);
-    const unsigned bits = unsigned(slabs[1].used >> (8 * y) & 0xff);
-    if (bits == 0xff) {
-        for (int z = 0; z < 8; ++z) row[z] = before + z;
-    } else {
-        for (int z = 0; z < 8; ++z) row[z] = before + countBits(bits & ((1u << z) - 1));
-    }
-    row[8] = idAt(slabs[2], 8 * y);
 }
 
 } // namespace vdbtet

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bcc/Frame.h"
+#include "emit/PointIds.h"
 #include "emit/TileMeasurer.h"
 #include "numbering/Numbering.h"
 #include "tets/TileTets.h"
@@ -21,52 +22,43 @@ struct Output {
 /// One for each thread.
 class TileEmitter {
 public:
-    TileEmitter(const Vertices& vertices, const Flips& flips, const Numbering& numbering, const Frame& frame)
-        : mVertices(vertices), mNumbering(numbering), mFrame(frame), mTets(vertices, flips),
-          mMeasurer(vertices) {}
+    TileEmitter(const Vertices& vertices, const Flips& flips, const Grading& grading,
+                const Numbering& numbering, const Frame& frame)
+        : mVertices(vertices), mGrading(grading), mNumbering(numbering), mFrame(frame),
+          mTets(vertices, flips), mIds(grading, numbering), mMeasurer(vertices) {}
 
-    /// Write tile number @a offset of a span of the layout.
+    /// Write tile number @a offset of a span of a tier.
     /// @return where the next tile goes
-    Output emit(std::int64_t span, std::int64_t offset, Output out);
+    Output emit(int tier, std::int64_t span, std::int64_t offset, Output out);
 
-    /// Measure a surface tile without writing it.
-    void measure(TileRef surface);
+    /// Measure a tile without writing it.
+    void measure(int tier, std::int64_t span);
 
-    /// What was measured, of written surface tiles too.
+    /// What was measured, of written tiles too. Only tets of surface tiles are; of the others Numbering knows
+    /// the angles.
     Measure& measured() { return mMeasurer.sum(); }
 
 private:
-    /// The ids of the points of a tile.
-    struct Ids {
-        std::int64_t first[2] = {0, 0};               ///< by lattice
-        const TileMask* used[2] = {nullptr, nullptr}; ///< which vertices have one
-    };
-
-    /// Those of a slab of equal x.
-    struct Slab {
-        std::int64_t first;
-        std::uint64_t used;
-    };
-
-    void emitSurfaceTile(const openvdb::Coord& tile, TileRef surface, Output& out);
-    void emitInteriorTile(const openvdb::Coord& tile, Output& out);
-    void emitRow(const openvdb::Coord& tile, int lattice, int row, unsigned used, bool streaming,
+    /// @return whether the tile has tets of the lattice itself
+    bool load(int tier, const openvdb::Coord& tile, TileRef surface);
+    void emitRunTile(const openvdb::Coord& tile, Output& out);
+    void emitSurfacePoints(const openvdb::Coord& tile, TileRef record, TileRef surface, Output& out);
+    void emitPoints(int tier, const openvdb::Coord& tile, int lattice, const TileMask& used, bool streaming,
+                    Output& out);
+    void emitRow(int tier, const openvdb::Coord& tile, int lattice, int row, unsigned used, bool streaming,
                  openvdb::Vec3d* points) const;
-
-    /// @param span  of the layout, or -1 outside
-    Ids idsOf(std::int64_t span, int tileZ) const;
-    /// Look up the ids of all vertices in and around a tile; those of unused vertices are arbitrary.
-    void findIds(const openvdb::Coord& tile);
-    static Slab slabOf(const Ids& ids, int lattice, int x);
-    static void findIds(const Slab (&slabs)[3], int y, std::int64_t* row);
+    void emitCells(Output& out);
+    void emitOctants(Output& out);
 
     const Vertices& mVertices;
+    const Grading& mGrading;
     const Numbering& mNumbering;
     const Frame& mFrame;
     LocalStates mStates;
+    LocalOctants mOctants;
     TileTets mTets;
+    PointIds mIds;
     TileMeasurer mMeasurer;
-    std::array<std::int64_t, kLocalVertices> mIds{}; ///< by local number
 };
 
 } // namespace vdbtet

@@ -12,6 +12,9 @@ namespace vdbtet {
 
 namespace {
 
+/// Where all around are alike.
+constexpr std::int64_t kTetsPerOctant = 12;
+
 /// @return the vertices of @a lattice in a tile that have a neighbour, by a short or a long edge, in the
 /// interior.
 TileMask nextToInterior(const PaddedMask& sameLattice, const PaddedMask& otherLattice, bcc::Lattice lattice) {
@@ -31,17 +34,58 @@ TileMask nextToInterior(const PaddedMask& sameLattice, const PaddedMask& otherLa
 /// Looks at one tile after another; one for each thread.
 class TileNumberer {
 public:
-    TileNumberer(const Vertices& vertices, const Flips& flips, const Frame& frame)
-        : mVertices(vertices), mFrame(frame), mTets(vertices, flips) {}
+    TileNumberer(const Vertices& vertices, const Flips& flips, const Grading& grading, const Frame& frame)
+        : tetsOfLevel(std::size_t(grading.top + 1)), mVertices(vertices), mGrading(grading), mFrame(frame),
+          mTets(vertices, flips) {}
 
-    /// @param used  receives the used vertices
+    /// @param used  receives the used vertices; nothing in L_B but of a surface tile
     /// @return the number of tets
-    std::int64_t number(TileRef tile, std::array<TileMask, 2>& used) {
+    std::int64_t number(int tier, const openvdb::Coord& tile, TileRef record, std::array<TileMask, 2>& used) {
+        const bool graded = mGrading.top > 0;
+        const TileRef surface = mGrading.surfaceOf(tier, record);
+        if (graded) mGrading.load(mVertices.layout, mVertices.signs, tier, tile, mOctants);
+        std::int64_t tets = 0;
+        if (surface >= 0) {
+            tets = numberSurface(surface, used);
+        } else {
+            used[bcc::A] = mOctants.vertices();
+            if (tier > 0) {
+                used[bcc::A] &= mGrading.tiers[tier].inside[record];
+                if (const TileMask* lent = mGrading.lent(tier, record)) used[bcc::A] &= ~*lent;
+            } else if (mOctants.exists(0).any()) {
+                // Cells of the tiles below, whose tets at the shared face belong here.
+                mStates.load(mVertices, kInside);
+                mStates.keepCells(mOctants.exists(0));
+                mTets.load(kInside, mStates);
+                tets = mTets.tets();
+                kinds[std::size_t(TetKind::Lattice)] += tets;
+                tetsOfLevel[0] += tets;
+            }
+        }
+        for (int level = 1; graded && level <= mOctants.coarsest(); ++level) {
+            const std::int64_t ofLevel = countTetsOfLevel(level);
+            tetsOfLevel[std::size_t(3 * tier + level)] += ofLevel;
+            tets += ofLevel;
+        }
+        return tets;
+    }
+
+    std::int64_t ambiguous = 0;
+    std::array<std::int64_t, kTetKinds> kinds{};
+    std::vector<std::int64_t> tetsOfLevel;
+    openvdb::BBoxd bounds;
+
+private:
+    std::int64_t numberSurface(TileRef tile, std::array<TileMask, 2>& used) {
+        const bool graded = mGrading.top > 0;
         mStates.load(mVertices, tile);
+        if (graded) mStates.keepCells(mOctants.exists(0));
         mTets.load(tile, mStates);
         ambiguous += mTets.ambiguous();
+        std::int64_t tets = mTets.tets();
         for (bcc::Lattice lattice : {bcc::A, bcc::B}) {
             used[lattice] = mStates.interiorMask(lattice).core();
+            if (graded && lattice == bcc::A) used[lattice] &= mOctants.vertices();
             const TileMask& manifold = mVertices.labels.manifold[tile][lattice];
             if (!manifold.any()) continue;
             const TileMask moved =
@@ -50,13 +94,26 @@ public:
             used[lattice] |= moved;
             expandBounds(tile, lattice, moved);
         }
-        return mTets.tets();
+        if (graded) {
+            forEachTetOfFringe(mOctants, mStates.interiorMask(bcc::B).core(),
+                               [&](TetKind kind, int, int, int, int) {
+                                   ++kinds[std::size_t(kind)];
+                                   ++tets;
+                               });
+        }
+        tetsOfLevel[0] += tets;
+        return tets;
     }
 
-    std::int64_t ambiguous = 0;
-    openvdb::BBoxd bounds;
+    std::int64_t countTetsOfLevel(int level) {
+        std::int64_t count = 0;
+        forEachTetOfLevel(mOctants, level, [&](TetKind kind, int, int, int, int) {
+            ++kinds[std::size_t(kind)];
+            ++count;
+        });
+        return count;
+    }
 
-private:
     /// The mesh is bounded by manifold vertices alone, and its points lie in their convex hull.
     void expandBounds(TileRef tile, bcc::Lattice lattice, const TileMask& moved) {
         const openvdb::Coord& at = mVertices.layout.surfaceTiles[tile];
@@ -70,42 +127,72 @@ private:
     }
 
     const Vertices& mVertices;
+    const Grading& mGrading;
     const Frame& mFrame;
+    LocalOctants mOctants;
     LocalStates mStates;
     TileTets mTets;
 };
 
 } // namespace
 
-Numbering numberMesh(const Vertices& vertices, const Flips& flips, const Frame& frame, Interrupt& interrupt) {
-    const Layout& layout = vertices.layout;
-    const std::int64_t tiles = layout.surfaceCount();
+Numbering numberMesh(const Vertices& vertices, const Flips& flips, const Grading& grading, const Frame& frame,
+                     Interrupt& interrupt) {
     Numbering numbering;
-    numbering.used.resize(tiles);
-    std::vector<std::int64_t> tets(tiles);
+    const int levelInRun = grading.coarsest(grading.last());
+    numbering.usedInRun = {grading.verticesInRun(), TileMask::filled(grading.top == 0)};
+    numbering.runPoints = numbering.usedInRun[bcc::A].count() + numbering.usedInRun[bcc::B].count();
+    numbering.runTets = kTetsPerOctant * (TileMask::kSize >> 3 * levelInRun);
+    numbering.tetsOfLevel.resize(std::size_t(grading.top + 1));
+    numbering.usedA.resize(grading.tiers.size());
+    numbering.usedB.resize(vertices.layout.surfaceTiles.size());
     tbb::enumerable_thread_specific<std::unique_ptr<TileNumberer>> numberers(
-        [&] { return std::make_unique<TileNumberer>(vertices, flips, frame); });
-    parallelRanges(tiles, interrupt, [&](std::int64_t begin, std::int64_t end) {
-        TileNumberer& numberer = *numberers.local();
-        for (std::int64_t t = begin; t < end; ++t) tets[t] = numberer.number(TileRef(t), numbering.used[t]);
-    });
+        [&] { return std::make_unique<TileNumberer>(vertices, flips, grading, frame); });
+
+    numbering.firstSpan.push_back(0);
+    for (auto* first : {&numbering.firstPoint, &numbering.firstTet}) first->push_back(0);
+    for (int tier = 0; tier <= grading.last(); ++tier) {
+        const Spans& spans = grading.tiers[tier].spans;
+        std::vector<TileMask>& usedA = numbering.usedA[tier];
+        usedA.resize(std::size_t(spans.size())); // a few more than records: runs have none
+        std::vector<std::int64_t> tets(std::size_t(spans.size()));
+        parallelRanges(spans.size(), interrupt, [&](std::int64_t begin, std::int64_t end) {
+            TileNumberer& numberer = *numberers.local();
+            for (std::int64_t s = begin; s < end; ++s) {
+                const TileRef record = spans[s].tile;
+                if (record < 0) continue;
+                std::array<TileMask, 2> used;
+                tets[s] = numberer.number(tier, spans[s].first, record, used);
+                usedA[record] = used[bcc::A];
+                const TileRef surface = grading.surfaceOf(tier, record);
+                if (surface >= 0) numbering.usedB[surface] = used[bcc::B];
+            }
+        });
+
+        for (auto* first : {&numbering.firstPoint, &numbering.firstTet})
+            first->reserve(first->size() + std::size_t(spans.size()));
+        for (std::int64_t s = 0; s < spans.size(); ++s) {
+            const Span& span = spans[s];
+            std::int64_t points = numbering.runPoints * span.count;
+            if (span.tile < 0) {
+                tets[s] = numbering.runTets * span.count;
+                numbering.kinds[std::size_t(TetKind::Lattice)] += tets[s];
+                numbering.tetsOfLevel.back() += tets[s];
+            } else {
+                const TileRef surface = grading.surfaceOf(tier, span.tile);
+                points = usedA[span.tile].count() + (surface >= 0 ? numbering.usedB[surface].count() : 0);
+            }
+            numbering.firstPoint.push_back(numbering.points() + points);
+            numbering.firstTet.push_back(numbering.tets() + tets[s]);
+        }
+        numbering.firstSpan.push_back(numbering.firstSpan.back() + spans.size());
+    }
     for (const auto& part : numberers) {
         numbering.ambiguous += part->ambiguous;
         numbering.bounds.expand(part->bounds);
-    }
-
-    for (auto* first : {&numbering.firstPoint, &numbering.firstTet}) {
-        first->reserve(layout.spans.size() + 1);
-        first->push_back(0);
-    }
-    for (const Layout::Span& span : layout.spans) {
-        const bool interior = span.surface < 0;
-        const std::int64_t points = interior ? kInteriorPoints * span.count
-                                             : numbering.used[span.surface][bcc::A].count() +
-                                                   numbering.used[span.surface][bcc::B].count();
-        numbering.firstPoint.push_back(numbering.points() + points);
-        numbering.firstTet.push_back(numbering.tets() +
-                                     (interior ? kInteriorTets * span.count : tets[span.surface]));
+        for (int kind = 0; kind < kTetKinds; ++kind) numbering.kinds[kind] += part->kinds[kind];
+        for (std::size_t level = 0; level < part->tetsOfLevel.size(); ++level)
+            numbering.tetsOfLevel[level] += part->tetsOfLevel[level];
     }
     return numbering;
 }

@@ -7,6 +7,8 @@
 #include "bcc/Frame.h"
 #include "destinations/LocalVertices.h"
 #include "flips/Flips.h"
+#include "grading/Grading.h"
+#include "tets/GradedTets.h"
 
 #include <array>
 #include <cstdint>
@@ -15,27 +17,39 @@
 namespace vdbtet {
 
 /// @brief Ids: those of a span's points start at firstPoint[span]; within a tile they go by rank in the used
-/// masks, L_A before L_B. Those of its tets start at firstTet[span] and go in the order of TileTets.
+/// masks, L_A before L_B. Those of its tets start at firstTet[span] and go in the order of TileTets, then of
+/// the fringe, then by level.
+/// @details Spans are counted on from tier to tier.
 struct Numbering {
-    /// The used vertices of each surface tile. Interior tiles use all of theirs.
-    std::vector<std::array<TileMask, 2>> used;
+    std::vector<std::int64_t> firstSpan; ///< of each tier, and the number of all at the end
 
-    /// By span of the layout, and the number of all at the end.
+    /// By span, and the number of all at the end.
     std::vector<std::int64_t> firstPoint, firstTet;
+
+    /// The used vertices of L_A, by tier and record, and of L_B, by surface tile. A vertex that a tile shares
+    /// with one of the tier below belongs to that.
+    std::vector<std::vector<TileMask>> usedA;
+    std::vector<TileMask> usedB;
+
+    /// Of each tile of a run.
+    std::array<TileMask, 2> usedInRun;
+    std::int64_t runPoints = 0, runTets = 0;
 
     std::int64_t points() const { return firstPoint.back(); }
     std::int64_t tets() const { return firstTet.back(); }
+
+    /// Tets whose shape is known, as no vertex of theirs has moved: of runs, and between octants.
+    std::array<std::int64_t, kTetKinds> kinds{};
+    std::vector<std::int64_t> tetsOfLevel; ///< by the level of their coarsest octant
 
     std::int64_t ambiguous = 0; ///< tets of four manifold vertices, which are not in the mesh
     openvdb::BBoxd bounds;      ///< of the used points, world space
 };
 
-/// The points of an interior tile.
-constexpr std::int64_t kInteriorPoints = 2 * TileMask::kSize;
-
-/// @details Every vertex inside is used. A manifold vertex is used iff one of its 14 lattice neighbours is
-/// inside and not manifold: the edge to that neighbour is in the mesh, or, flipped, another such edge of the
-/// same octahedron.
-Numbering numberMesh(const Vertices& vertices, const Flips& flips, const Frame& frame, Interrupt& interrupt);
+/// @details Every vertex inside is used that exists. A manifold vertex is used iff one of its 14 lattice
+/// neighbours is inside and not manifold: the edge to that neighbour is in the mesh, or, flipped, another
+/// such edge of the same octahedron.
+Numbering numberMesh(const Vertices& vertices, const Flips& flips, const Grading& grading, const Frame& frame,
+                     Interrupt& interrupt);
 
 } // namespace vdbtet

@@ -83,7 +83,7 @@ void AngleSum::add(AngleSum& other) {
     mMax = std::max(mMax, other.mMax);
     mAngles += other.mAngles;
     for (std::size_t i = 0; i < mBeyond.size(); ++i) mBeyond[i] += other.mBeyond[i];
-    mLatticeTets += other.mLatticeTets;
+    for (std::size_t i = 0; i < mKnown.size(); ++i) mKnown[i] += other.mKnown[i];
 }
 
 AngleStats AngleSum::stats() {
@@ -95,15 +95,15 @@ AngleStats AngleSum::stats() {
         stats.histogram[bin] = before - beyond;
         before = beyond;
     }
-    stats.histogram[6] += 4 * mLatticeTets;
-    stats.histogram[9] += 2 * mLatticeTets;
     if (mMax >= mMin) {
         stats.min = angleOf(cosineOf(mMax));
         stats.max = angleOf(cosineOf(mMin));
     }
-    if (mLatticeTets > 0) {
-        stats.min = std::min(stats.min, 60.0);
-        stats.max = std::max(stats.max, 90.0);
+    for (std::size_t i = 0; i < mKnown.size(); ++i) {
+        if (mKnown[i] == 0) continue;
+        stats.histogram[i / 2] += mKnown[i];
+        stats.min = std::min(stats.min, 5.0 * double(i));
+        stats.max = std::max(stats.max, 5.0 * double(i));
     }
     return stats;
 }

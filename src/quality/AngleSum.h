@@ -26,8 +26,12 @@ public:
         if (++mBatched == kBatch) flush();
     }
 
-    /// Add @a count tets of the lattice itself: four angles of 60 and two of 90 degrees each.
-    void addLatticeTets(std::int64_t count) { mLatticeTets += count; }
+    /// Add @a count tets of these angles, in degrees, which must be multiples of 5.
+    void addKnown(const std::array<int, 6>& degrees, std::int64_t count) {
+        for (const int angle : degrees) mKnown[std::size_t(angle / 5)] += count;
+    }
+    /// Add tets of the lattice itself.
+    void addLatticeTets(std::int64_t count) { addKnown({60, 60, 60, 60, 90, 90}, count); }
 
     /// Take in all that @a other has seen.
     void add(AngleSum& other);
@@ -43,8 +47,8 @@ private:
     Isa mIsa;
     double mMin = 1.0, mMax = -1.0; ///< of the signed squares of the cosines
     std::int64_t mAngles = 0;
-    std::array<std::int64_t, kBins - 1> mBeyond{}; ///< angles of at least 10, 20, ... 170 degrees
-    std::int64_t mLatticeTets = 0;
+    std::array<std::int64_t, kBins - 1> mBeyond{}; ///< measured angles of at least 10, 20, ... 170 degrees
+    std::array<std::int64_t, 36> mKnown{};         ///< angles of 0, 5, ... 175 degrees
 
     int mBatched = 0;
     double mBatch[12][kBatch]; ///< coordinates of the vertices

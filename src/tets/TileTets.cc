@@ -4,10 +4,14 @@
 
 namespace vdbtet {
 
-void LocalFlips::load(const Flips& flips, const Neighbours& neighbours) {
+void LocalFlips::clear() {
     for (int lattice = 0; lattice < 2; ++lattice) {
         for (int axis = 0; axis < 3; ++axis) mFlipped[lattice][axis] = mToB[lattice][axis] = PaddedMask();
     }
+}
+
+void LocalFlips::load(const Flips& flips, const Neighbours& neighbours) {
+    clear();
     for (int slot = 0; slot < 27; ++slot) {
         if (neighbours[slot] < 0) continue;
         const TileMask& border = borderOf(slot);
@@ -25,7 +29,11 @@ void TileTets::load(TileRef tile, const LocalStates& states) {
     mTile = tile;
     mStates = &states;
     mTets = mAmbiguous = 0;
-    mLocalFlips.load(mFlips, mVertices.layout.neighbours[tile]);
+    if (tile == kInside) {
+        mLocalFlips.clear();
+    } else {
+        mLocalFlips.load(mFlips, mVertices.layout.neighbours[tile]);
+    }
     const auto count = [&](const LocalTet&) { ++mTets; };
     for (int axis = 0; axis < 3; ++axis) {
         mFlippedA[axis] = mLocalFlips.mask(bcc::A, axis).core();
@@ -35,8 +43,7 @@ void TileTets::load(TileRef tile, const LocalStates& states) {
             mAmbiguous += visitFlipped(bcc::A, axis, slice, n, count);
         });
     }
-    mFlips.forEach(tile, [&](const Flip& flip) {
-        if (flip.lattice != bcc::B) return;
+    forEachFlipOfB([&](const Flip& flip) {
         mAmbiguous += visitFlipped(bcc::B, flip.axis, flip.slice, flip.vertex, count);
     });
 }

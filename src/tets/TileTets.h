@@ -12,9 +12,6 @@
 
 namespace vdbtet {
 
-/// The tets that an interior tile owns: 12 a cell.
-constexpr std::int64_t kInteriorTets = 12 * TileMask::kSize;
-
 /// A tet as part of an octahedron.
 struct LocalTet {
     LocalOctahedron octahedron;
@@ -28,6 +25,7 @@ struct LocalTet {
 /// The flipped spines of a tile and of a border of one around it.
 class LocalFlips {
 public:
+    void clear();
     void load(const Flips& flips, const Neighbours& neighbours);
 
     /// The lower ends of the flipped spines along an axis.
@@ -52,7 +50,8 @@ public:
     TileTets(const TileTets&) = delete;
     TileTets& operator=(const TileTets&) = delete;
 
-    /// Go to a surface tile, the states of whose vertices are @a states, until the next call.
+    /// Go to a surface tile, the states of whose vertices are @a states, until the next call; or to a tile
+    /// far from any, kInside, of which only some cells may exist.
     void load(TileRef tile, const LocalStates& states);
 
     std::int64_t tets() const { return mTets; }
@@ -78,13 +77,20 @@ public:
     /// Call @a visit(LocalTet) for each tet of the flipped octahedra of L_B spines.
     template <typename Visit>
     void forEachTetOfB(Visit&& visit) const {
-        mFlips.forEach(mTile, [&](const Flip& flip) {
-            if (flip.lattice == bcc::B) visitFlipped(bcc::B, flip.axis, flip.slice, flip.vertex, visit);
-        });
+        forEachFlipOfB(
+            [&](const Flip& flip) { visitFlipped(bcc::B, flip.axis, flip.slice, flip.vertex, visit); });
     }
 
 private:
     void findLatticeTets(int axis);
+
+    template <typename Visit>
+    void forEachFlipOfB(Visit&& visit) const {
+        if (mTile == kInside) return;
+        mFlips.forEach(mTile, [&](const Flip& flip) {
+            if (flip.lattice == bcc::B) visit(flip);
+        });
+    }
 
     /// Visit those of the four tets that are in the mesh.
     /// @return the number of ambiguous ones

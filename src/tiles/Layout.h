@@ -5,6 +5,7 @@
 #include "Parallel.h"
 #include "bits/TileMask.h"
 #include "field/Field.h"
+#include "tiles/Spans.h"
 
 #include <openvdb/Types.h>
 
@@ -13,11 +14,6 @@
 #include <vector>
 
 namespace vdbtet {
-
-/// A tile as its neighbours see it: the index of a surface tile, or one of the two constants below.
-using TileRef = std::int32_t;
-constexpr TileRef kInside = -1;  ///< all vertices inside and far from any cut edge
-constexpr TileRef kOutside = -2; ///< all vertices outside and far from any cut edge
 
 /// The 27 tiles around and including a tile, by neighbourSlot().
 using Neighbours = std::array<TileRef, 27>;
@@ -28,28 +24,11 @@ using Neighbours = std::array<TileRef, 27>;
 /// of a column is told by a sign of the lower one. Interior tiles need no other record, and memory grows with
 /// the surface alone.
 struct Layout {
-    struct Span {
-        openvdb::Coord first;      ///< the lowest tile
-        std::int64_t count = 1;    ///< tiles along z
-        TileRef surface = kInside; ///< the index of the surface tile, or kInside for a run of interior tiles
-    };
-
-    /// The tiles of equal x and y.
-    struct Column {
-        int x, y;
-        std::int64_t begin, end; ///< its spans
-    };
-
-    std::vector<Span> spans;
-    std::vector<Column> columns;
+    Spans spans;                              ///< of surface tiles, by index, and of interior tiles
     std::vector<openvdb::Coord> surfaceTiles; ///< ascending
+    std::vector<Neighbours> neighbours;       ///< of each surface tile
 
     std::int64_t surfaceCount() const { return std::int64_t(surfaceTiles.size()); }
-
-    /// The spans that hold a tile and its neighbours, by neighbourSlot(); -1 for tiles outside.
-    std::array<std::int64_t, 27> spansAround(const openvdb::Coord& tile) const;
-
-    std::vector<Neighbours> neighbours; ///< of each surface tile
 };
 
 /// @brief Lay out the tiles.

@@ -21,8 +21,7 @@ class Constructed {
 public:
     Constructed(bcc::Lattice lattice, int axis) : mSigns(1) {
         mLayout.surfaceTiles = {openvdb::Coord(0)};
-        mLayout.spans = {{openvdb::Coord(0), 1, 0}};
-        mLayout.columns = {{0, 0, 0, 1}};
+        mLayout.spans.append({openvdb::Coord(0), 1, 0});
         mLayout.neighbours.resize(1);
         mLayout.neighbours[0].fill(kOutside);
         mLayout.neighbours[0][neighbourSlot(0, 0, 0)] = 0;

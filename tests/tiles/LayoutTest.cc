@@ -17,13 +17,13 @@ TEST_CASE("runs of interior tiles fill what the surface encloses", "[tiles]") {
     const Layout& layout = stages.layout;
     std::map<Coord, std::int64_t> spanOf;
     std::int64_t interior = 0;
-    for (size_t s = 0; s < layout.spans.size(); ++s) {
-        const Layout::Span& span = layout.spans[s];
+    for (std::int64_t s = 0; s < layout.spans.size(); ++s) {
+        const Span& span = layout.spans[s];
         for (int z = 0; z < span.count; ++z) {
             const Coord tile = span.first.offsetBy(0, 0, z);
             REQUIRE(spanOf.emplace(tile, s).second);
-            if (span.surface >= 0) {
-                REQUIRE(layout.surfaceTiles[span.surface] == tile);
+            if (span.tile >= 0) {
+                REQUIRE(layout.surfaceTiles[span.tile] == tile);
                 continue;
             }
             ++interior;
@@ -34,15 +34,15 @@ TEST_CASE("runs of interior tiles fill what the surface encloses", "[tiles]") {
     }
     REQUIRE(interior > 100);
     for (const auto& entry : spanOf) {
-        const auto around = layout.spansAround(entry.first);
+        const auto around = layout.spans.around(entry.first);
         for (int slot = 0; slot < 27; ++slot) {
             const auto found =
                 spanOf.find(entry.first.offsetBy(slot / 9 - 1, slot / 3 % 3 - 1, slot % 3 - 1));
             const std::int64_t span = found == spanOf.end() ? -1 : found->second;
             REQUIRE(around[slot] == span);
-            const TileRef surface = layout.spans[entry.second].surface;
+            const TileRef surface = layout.spans[entry.second].tile;
             if (surface < 0) continue;
-            REQUIRE(layout.neighbours[surface][slot] == (span < 0 ? kOutside : layout.spans[span].surface));
+            REQUIRE(layout.neighbours[surface][slot] == (span < 0 ? kOutside : layout.spans[span].tile));
         }
     }
 }
