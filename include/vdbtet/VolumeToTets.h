@@ -43,7 +43,8 @@ struct Options {
     /// balance allows. The boundary stays the same, bit for bit; the number of tets grows with the surface
     /// instead of the volume. Tets between levels have angles in [45, 120] degrees.
     bool grade = false;
-    /// With grade: no edge is longer than this, a world length. Default: no limit.
+    /// With grade: edges away from the surface are no longer than this, a world length, and no less than the
+    /// spacing. Default: no limit.
     std::optional<double> maxSize;
 
     /// Refuse, before the work, a surface that crosses more lattice tiles (8 x 8 x 8 cells) than this. A tile

@@ -23,6 +23,7 @@ Meshed meshWithThreads(int threads, const openvdb::GridBase& grid, const Options
 void requireSameReport(const Report& a, const Report& b) {
     CHECK(a.points == b.points);
     CHECK(a.tets == b.tets);
+    CHECK(a.tetsOfLevel == b.tetsOfLevel);
     CHECK(a.boundaryTriangles == b.boundaryTriangles);
     CHECK(a.ambiguous == b.ambiguous);
     CHECK(a.conflicts == b.conflicts);
@@ -65,4 +66,13 @@ TEST_CASE("any number of threads gives the same bytes: ties and cycles") {
     requireDeterministic(*randomCuts(24, 2, 0.7), atVoxels(2.0));
     // Every cut point is in the middle of its edge.
     requireDeterministic(*levelSet(box({-10.5, -10.5, -10.5}, {10.5, 10.5, 10.5})), atVoxels(1.0));
+}
+
+TEST_CASE("any number of threads gives the same bytes: graded") {
+    Options options = atVoxels(0.8);
+    options.grade = true;
+    requireDeterministic(*levelSet(torus({0.3, -0.2, 0.1}, 40, 18)), options);
+    requireDeterministic(*levelSet(noiseBall(1, {0.1, 0.2, 0.3}, 25, 6)), options);
+    options.maxSize = 2.0;
+    requireDeterministic(*levelSet(sphere({0.3, -0.2, 0.1}, 30)), options);
 }

@@ -29,6 +29,7 @@ void Expectation::checkMesh(const std::string& folder) const {
         requireManifold(f);
     }
     if (mVolume) CHECK(f.volume == Approx(*mVolume).epsilon(mPercent / 100));
+    checkGraded(folder, f);
     if (mSameAs.empty()) return;
     const Meshed other = meshOf(*readGrid(folder + "/" + mSameAs), mOptions);
     if (mTolerance == 0) {
@@ -36,6 +37,17 @@ void Expectation::checkMesh(const std::string& folder) const {
     } else {
         requireSame(result.mesh, other.mesh, mTolerance * result.report.spacing);
     }
+}
+
+void Expectation::checkGraded(const std::string& folder, const MeshFigures& uniform) const {
+    Options options = mOptions;
+    options.grade = true;
+    const Meshed result = meshOf(*readGrid(folder + "/" + mFile, mName), options);
+    const MeshFigures f = requireClean(result.mesh, result.report);
+    CHECK(f.triangles == uniform.triangles);
+    CHECK(f.components == uniform.components);
+    CHECK(f.euler == uniform.euler);
+    CHECK(f.volume == Approx(uniform.volume).epsilon(1e-9));
 }
 
 } // namespace vdbtet::test

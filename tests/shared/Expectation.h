@@ -2,6 +2,8 @@
 /// What a file is expected to do, as a table in the tests can say it.
 #pragma once
 
+#include "support/MeshChecker.h"
+
 #include <vdbtet/Errors.h>
 #include <vdbtet/VolumeToTets.h>
 
@@ -63,6 +65,8 @@ private:
     }
 
     void checkMesh(const std::string& folder) const;
+    /// The graded mesh is as clean, and has the same surface as the uniform one.
+    void checkGraded(const std::string& folder, const MeshFigures& uniform) const;
 
     std::string mFile, mName;
     Options mOptions;

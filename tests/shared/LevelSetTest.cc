@@ -49,11 +49,13 @@ double farthestFromSurface(const Meshed& result, const openvdb::FloatGrid& grid)
     return farthest / result.report.voxelSize;
 }
 
-void requireCleanLevelSets(const std::string& resolution, double voxels) {
+void requireCleanLevelSets(const std::string& resolution, double voxels, bool grade = false) {
     for (const auto& path : levelSets(resolution)) {
         CAPTURE(path.filename().string(), voxels);
         const auto grid = openvdb::gridPtrCast<openvdb::FloatGrid>(readGrid(path.string()));
-        const Meshed result = meshOf(*grid, atVoxels(voxels));
+        Options options = atVoxels(voxels);
+        options.grade = grade;
+        const Meshed result = meshOf(*grid, options);
         const MeshFigures figures = requireClean(result.mesh, result.report);
         CHECK(figures.volume > 0);
         CHECK(farthestFromSurface(result, *grid) < 0.01);
@@ -72,6 +74,12 @@ TEST_CASE("level sets of 64 voxels across give clean meshes on a finer lattice",
 
 TEST_CASE("level sets of 128 voxels across give clean meshes on a coarser lattice", "[shared]") {
     for (const double voxels : {2.0, 5.0}) requireCleanLevelSets("128", voxels);
+}
+
+TEST_CASE("level sets give clean graded meshes", "[shared][grading]") {
+    for (const double voxels : {0.7, 1.0, 3.0}) requireCleanLevelSets("64", voxels, true);
+    requireCleanLevelSets("128", 1.0, true);
+    requireCleanLevelSets("256", 2.0, true);
 }
 
 TEST_CASE("level sets of 128 voxels across give clean meshes", "[shared][slow]") {
