@@ -22,10 +22,10 @@ int bitInParent(const Coord& tile) { return TileMask::bit(tile.x() & 7, tile.y()
 
 } // namespace
 
-void PointIds::load(int tier, const Coord& tile) {
+void PointIds::load(int tier, const Coord& tile, const SpansAround& around) {
     mTier = tier;
     mTile = tile;
-    mAround = mGrading.tiers[tier].spans.around(tile);
+    mAround = around;
     if (mGrading.top == 0) return;
     const Tier& own = mGrading.tiers[tier];
     for (int slot = 0; slot < 8; ++slot) {

@@ -14,8 +14,8 @@ class PointIds {
 public:
     PointIds(const Grading& grading, const Numbering& numbering) : mGrading(grading), mNumbering(numbering) {}
 
-    /// Go to a tile of a tier.
-    void load(int tier, const openvdb::Coord& tile);
+    /// Go to a tile of a tier, and the spans around it.
+    void load(int tier, const openvdb::Coord& tile, const SpansAround& around);
 
     /// @brief The ids of all vertices in and around the tile, of tier 0, by local number; those of unused
     /// vertices are arbitrary.
@@ -69,8 +69,8 @@ private:
     const Numbering& mNumbering;
     int mTier = 0;
     openvdb::Coord mTile;
-    std::array<std::int64_t, 27> mAround{}; ///< spans
-    std::array<Upper, 8> mUpper{};          ///< by upperSlot()
+    SpansAround mAround{};
+    std::array<Upper, 8> mUpper{}; ///< by upperSlot()
     std::array<std::int64_t, kLocalVertices> mIds{};
 };
 

@@ -109,13 +109,14 @@ Tet* writeInteriorTile(const std::int64_t* ids, Tet* tets) {
 Output TileEmitter::emit(int tier, std::int64_t span, std::int64_t offset, Output out) {
     const Span& s = mGrading.tiers[tier].spans[span];
     const Coord tile = s.first.offsetBy(0, 0, int(offset));
-    mIds.load(tier, tile);
+    const SpansAround around = mGrading.tiers[tier].spans.around(tile);
+    mIds.load(tier, tile, around);
     if (mGrading.top == 0 && s.tile < 0) {
         emitRunTile(tile, out);
         return out;
     }
     const TileRef surface = mGrading.surfaceOf(tier, s.tile);
-    const bool hasCells = load(tier, tile, surface);
+    const bool hasCells = load(tier, tile, surface, around);
     if (surface >= 0) {
         mMeasurer.measure(surface, mTets, mStates);
         emitSurfacePoints(tile, s.tile, surface, out);
@@ -132,14 +133,14 @@ void TileEmitter::measure(int tier, std::int64_t span) {
     const Span& s = mGrading.tiers[tier].spans[span];
     const TileRef surface = mGrading.surfaceOf(tier, s.tile);
     if (surface < 0) return;
-    load(tier, s.first, surface);
+    load(tier, s.first, surface, mGrading.tiers[tier].spans.around(s.first));
     mMeasurer.measure(surface, mTets, mStates);
 }
 
-bool TileEmitter::load(int tier, const Coord& tile, TileRef surface) {
+bool TileEmitter::load(int tier, const Coord& tile, TileRef surface, const SpansAround& around) {
     const bool graded = mGrading.top > 0;
     if (graded) {
-        mGrading.load(mVertices.layout, mVertices.signs, tier, tile, mOctants);
+        mGrading.load(mVertices.layout, mVertices.signs, tier, tile, around, mOctants);
         if (surface < 0 && (tier > 0 || !mOctants.exists(0).any())) return false;
     }
     mStates.load(mVertices, surface);

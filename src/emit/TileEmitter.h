@@ -40,7 +40,7 @@ public:
 
 private:
     /// @return whether the tile has tets of the lattice itself
-    bool load(int tier, const openvdb::Coord& tile, TileRef surface);
+    bool load(int tier, const openvdb::Coord& tile, TileRef surface, const SpansAround& around);
     void emitRunTile(const openvdb::Coord& tile, Output& out);
     void emitSurfacePoints(const openvdb::Coord& tile, TileRef record, TileRef surface, Output& out);
     void emitPoints(int tier, const openvdb::Coord& tile, int lattice, const TileMask& used, bool streaming,

@@ -258,9 +258,8 @@ TileMask Grading::verticesInRun() const {
 }
 
 void Grading::load(const Layout& layout, const std::vector<TileSigns>& signs, int tier, const Coord& tile,
-                   LocalOctants& octants) const {
+                   const SpansAround& around, LocalOctants& octants) const {
     const Tier& own = tiers[tier];
-    const auto around = own.spans.around(tile);
     const std::int64_t centre = around[neighbourSlot(0, 0, 0)];
     const TileRef surface = surfaceOf(tier, own.spans[centre].tile);
     std::array<OctantPart, 27> parts;

@@ -56,9 +56,10 @@ struct Grading {
     /// The vertices of L_A in a tile of a run.
     TileMask verticesInRun() const;
 
-    /// Unpack the surroundings of a tile of a graded mesh.
+    /// @brief Unpack the surroundings of a tile of a graded mesh.
+    /// @param around  the tier's spans around it
     void load(const Layout& layout, const std::vector<TileSigns>& signs, int tier, const openvdb::Coord& tile,
-              LocalOctants& octants) const;
+              const SpansAround& around, LocalOctants& octants) const;
 };
 
 /// @brief Choose the octants.

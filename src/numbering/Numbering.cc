@@ -43,7 +43,10 @@ public:
     std::int64_t number(int tier, const openvdb::Coord& tile, TileRef record, std::array<TileMask, 2>& used) {
         const bool graded = mGrading.top > 0;
         const TileRef surface = mGrading.surfaceOf(tier, record);
-        if (graded) mGrading.load(mVertices.layout, mVertices.signs, tier, tile, mOctants);
+        if (graded) {
+            const SpansAround around = mGrading.tiers[tier].spans.around(tile);
+            mGrading.load(mVertices.layout, mVertices.signs, tier, tile, around, mOctants);
+        }
         std::int64_t tets = 0;
         if (surface >= 0) {
             tets = numberSurface(surface, used);

@@ -50,6 +50,16 @@ void visitHalfPyramids(const Face& face, bool upper, int centre, Visit&& visit) 
     }
 }
 
+/// @return where all four children exist at the face across @a axis of an octant: by the lowest of the four.
+inline PaddedMask fullQuarters(const PaddedMask& children, int axis) {
+    const int u = kBitAlong[(axis + 1) % 3], v = kBitAlong[(axis + 2) % 3];
+    PaddedMask halves = children, quarters;
+    halves.intersect(children.movedDown(u));
+    quarters = halves;
+    quarters.intersect(halves.movedDown(v));
+    return quarters;
+}
+
 /// The tets of the centres of two octants of @a level >= 1 that share a face.
 /// @param x,y,z  the lower octant
 template <typename Visit>
@@ -109,6 +119,9 @@ void forEachTetOfLevel(const LocalOctants& octants, int level, Visit&& visit) {
     using namespace graded;
     const int dim = TileMask::kDim >> level, edge = 1 << level, half = edge / 2;
     const PaddedMask& exists = octants.exists(level);
+    const PaddedMask& children = octants.exists(level - 1);
+    const PaddedMask full[3] = {fullQuarters(children, 0), fullQuarters(children, 1),
+                                fullQuarters(children, 2)};
     for (int x = 0; x < dim; ++x) {
         for (int y = 0; y < dim; ++y) {
             for (int z = 0; z < dim; ++z) {
@@ -118,15 +131,18 @@ void forEachTetOfLevel(const LocalOctants& octants, int level, Visit&& visit) {
                 const int centre = lowest + half * unitPoint(1, 1, 1);
                 for (int axis = 0; axis < 3; ++axis) {
                     const int parity = octants.parity(level, axis, x, y, z);
-                    const Face lower = faceAt(lowest, axis, edge, parity),
-                               upper = faceAt(lowest + edge * kAlong[axis], axis, edge, parity);
-                    if (exists.test(bit + kBitAlong[axis])) {
-                        visitPair(octants, level, x, y, z, upper, centre, visit);
-                    } else if (octants.inside(centre)) {
-                        visitHalfPyramids(upper, true, centre, visit);
+                    const int near = PaddedMask::bit(2 * x, 2 * y, 2 * z) + kBitAlong[axis];
+                    // Between two octants whose children at the face all exist there is nothing.
+                    if (!full[axis].test(near) || !full[axis].test(near + kBitAlong[axis])) {
+                        const Face upper = faceAt(lowest + edge * kAlong[axis], axis, edge, parity);
+                        if (exists.test(bit + kBitAlong[axis])) {
+                            visitPair(octants, level, x, y, z, upper, centre, visit);
+                        } else if (octants.inside(centre)) {
+                            visitHalfPyramids(upper, true, centre, visit);
+                        }
                     }
                     if (!exists.test(bit - kBitAlong[axis]) && octants.inside(centre))
-                        visitHalfPyramids(lower, false, centre, visit);
+                        visitHalfPyramids(faceAt(lowest, axis, edge, parity), false, centre, visit);
                 }
             }
         }

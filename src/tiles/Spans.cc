@@ -32,8 +32,8 @@ std::int64_t Spans::find(const Coord& tile) const {
     return above - 1 - mSpans.begin();
 }
 
-std::array<std::int64_t, 27> Spans::around(const Coord& tile) const {
-    std::array<std::int64_t, 27> around;
+SpansAround Spans::around(const Coord& tile) const {
+    SpansAround around;
     around.fill(-1);
     for (int dx = -1; dx <= 1; ++dx) {
         auto column = lowerColumn(tile.x() + dx, tile.y() - 1);

@@ -24,6 +24,9 @@ struct Span {
     TileRef tile = kInside; ///< the index of the tile's record, or kInside for a run
 };
 
+/// The spans that hold a tile and its neighbours, by neighbourSlot(); -1 where there is none.
+using SpansAround = std::array<std::int64_t, 27>;
+
 /// Spans that do not overlap, in ascending order of their tiles.
 class Spans {
 public:
@@ -38,8 +41,7 @@ public:
     /// @return the span that holds a tile, or -1
     std::int64_t find(const openvdb::Coord& tile) const;
 
-    /// The spans that hold a tile and its neighbours, by neighbourSlot(); -1 where there is none.
-    std::array<std::int64_t, 27> around(const openvdb::Coord& tile) const;
+    SpansAround around(const openvdb::Coord& tile) const;
 
 private:
     /// The tiles of equal x and y.
