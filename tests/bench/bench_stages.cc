@@ -3,7 +3,8 @@
 /// volumeToMesh() on the same grid, and copying as many bytes as the mesh has.
 ///
 /// usage: vdbtet_bench [--benchmark_OPTION=...] GRID.vdb...
-///        vdbtet_bench --write torus|box N OUT.vdb   makes the fixture of resolution N
+///        vdbtet_bench --write torus|box|ball N OUT.vdb   makes the fixture of resolution N
+///        vdbtet_bench --floor GRID.vdb   prints the seconds of reading it and of volumeToMesh(), once
 ///
 /// The counters of a repetition are seconds, by stage and by comparison. tests/bench/benchmark.py makes
 /// tables.
@@ -147,6 +148,28 @@ void repetition(benchmark::State& state, const std::string& path, int threads) {
     }
 }
 
+void write(const std::string& kind, int resolution, const std::string& path) {
+    openvdb::FloatGrid::Ptr grid;
+    if (kind == "torus") grid = vdbtet::bench::bumpyTorus(resolution);
+    if (kind == "box") grid = vdbtet::bench::box(resolution);
+    if (kind == "ball") grid = vdbtet::bench::ball(resolution);
+    if (!grid) throw std::runtime_error("no fixture is called " + kind);
+    openvdb::io::File(path).write({grid});
+}
+
+/// What a process that makes only the surface spends.
+void printFloor(const std::string& path) {
+    constexpr int kMost = kThreads[std::size(kThreads) - 1];
+    openvdb::FloatGrid::Ptr grid;
+    const double reading = secondsOn(kMost, [&] { grid = read(path); });
+    const double meshing = secondsOn(kMost, [&] {
+        std::vector<openvdb::Vec3s> points;
+        std::vector<openvdb::Vec4I> quads;
+        openvdb::tools::volumeToMesh(*grid, points, quads);
+    });
+    std::printf("%.6f %.6f\n", reading, meshing);
+}
+
 int runBenchmarks(int argc, char** argv) {
     benchmark::Initialize(&argc, argv); // takes its own options out
     if (argc < 2) throw std::runtime_error("which grids? tools/bench.sh makes some");
@@ -169,10 +192,11 @@ int runBenchmarks(int argc, char** argv) {
 int main(int argc, char** argv) try {
     openvdb::initialize();
     if (argc == 5 && std::strcmp(argv[1], "--write") == 0) {
-        const int resolution = std::atoi(argv[3]);
-        const bool box = std::strcmp(argv[2], "box") == 0;
-        openvdb::io::File(argv[4]).write(
-            {box ? vdbtet::bench::box(resolution) : vdbtet::bench::bumpyTorus(resolution)});
+        write(argv[2], std::atoi(argv[3]), argv[4]);
+        return 0;
+    }
+    if (argc == 3 && std::strcmp(argv[1], "--floor") == 0) {
+        printFloor(argv[2]);
         return 0;
     }
     return runBenchmarks(argc, argv);

@@ -34,6 +34,9 @@ class Fixture:
         self.report = None  # of a dry run
         self.peak = self.coarse_peak = None  # bytes
         self.processes = []  # (vdb_tet, read, cp) seconds for each repetition
+        self.graded = None  # the report of a run with --grade
+        self.graded_peak = None  # bytes
+        self.graded_processes = []  # (vdb_tet --grade, read, volumeToMesh, cp) seconds for each repetition
 
     def stages(self):
         """The stages of the library, in the order of work. A dry run measures; else that is part of emit."""
@@ -130,6 +133,24 @@ def measure_processes(fixture, args, folder):
         copying, _ = run("cp", first, copy)
         copy.unlink()
         fixture.processes.append((seconds, read, copying))
+    first.unlink()
+
+
+def measure_graded(fixture, args, folder):
+    """What a graded mesh of a solid takes, next to reading the grid, making its surface and copying the file."""
+    fixture.report = vdb_tet(fixture, args, folder, "--dry-run")[2]
+    first, out, copy = folder / "first.vtu", folder / "out.vtu", folder / "copy.vtu"
+    _, fixture.graded_peak, fixture.graded = vdb_tet(fixture, args, folder, "--grade", first)
+    for _ in range(args.repetitions):
+        os.sync()
+        seconds = vdb_tet(fixture, args, folder, "--grade", out)[0]
+        out.unlink()
+        floor = subprocess.run([args.bench, "--floor", fixture.path], capture_output=True, text=True, check=True)
+        read, surface = (float(word) for word in floor.stdout.split())
+        os.sync()
+        copying, _ = run("cp", first, copy)
+        copy.unlink()
+        fixture.graded_processes.append((seconds, read, surface, copying))
     first.unlink()
 
 
@@ -237,6 +258,26 @@ def print_interior(boxes):
     print_table(["box"] + [str(n) for n in sizes] + ["p of n^p"], rows)
 
 
+def print_graded(balls):
+    """Solids whose inside is coarsened."""
+    print(f"Graded, balls of so many voxels across, on {MOST} threads:\n")
+    sizes = [f.resolution for f in balls]
+    tets = [(f.resolution, f.graded["tets"]) for f in balls]
+    table = [
+        ["tets, millions"] + [f"{t / 1e6:.2f}" for _, t in tets],
+        ["tets of the uniform mesh / tets"] + [f"{f.report['tets'] / f.graded['tets']:.1f}" for f in balls],
+        ["peak memory, MB"] + [f"{f.graded_peak / 1e6:.0f}" for f in balls],
+    ]
+    labels = ["vdb_tet --grade to VTU, s", "reading the grid, s", "volumeToMesh, s", "cp of the VTU, s"]
+    for i, label in enumerate(labels):
+        table.append([label] + [f"{statistics.median(p[i] for p in f.graded_processes):.3f}" for f in balls])
+    ratios = [statistics.median(p[0] / sum(p[1:]) for p in f.graded_processes) for f in balls]
+    table.append(["vdb_tet --grade / (read + volumeToMesh + cp), at most 1.5"] + [f"{r:.2f}" for r in ratios])
+    print_table(["ball"] + [str(n) for n in sizes], table)
+    if len(balls) > 1:
+        print(f"The tets grow as n^p with p = {exponent(tets):.2f} (target 2.0 ± 0.1).\n")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--bench", required=True, type=os.path.abspath, help="vdbtet_bench")
@@ -250,7 +291,8 @@ def main():
     with tempfile.TemporaryDirectory(dir=args.folder) as name:
         folder = pathlib.Path(name)
         fixtures = []
-        for size in sorted(int(text) for text in args.sizes.split(",")):
+        sizes = sorted(int(text) for text in args.sizes.split(","))
+        for size in sizes:
             fixtures.append(Fixture(folder / f"torus_{size}.vdb", size))
             run(args.bench, "--write", "torus", size, fixtures[-1].path)
         fixtures += [Fixture(path) for path in args.grids]
@@ -266,12 +308,19 @@ def main():
             run(args.bench, "--write", "box", fixture.resolution, fixture.path)
             measure_stages(fixture, args, folder)
 
+        balls = [Fixture(folder / f"ball_{size}.vdb", size) for size in sizes]
+        for fixture in balls:
+            progress(f"benchmark.py: {fixture.name}")
+            run(args.bench, "--write", "ball", fixture.resolution, fixture.path)
+            measure_graded(fixture, args, folder)
+
     print_environment(args)
     print_ratios(fixtures)
     print_stages(fixtures)
     print_processes(fixtures)
     print_growth(fixtures)
     print_interior(boxes)
+    print_graded(balls)
 
 
 if __name__ == "__main__":

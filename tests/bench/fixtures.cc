@@ -2,6 +2,7 @@
 /// Evaluates the shape in the leaf nodes near its surface only.
 #include "bench/fixtures.h"
 
+#include <openvdb/tools/LevelSetSphere.h>
 #include <openvdb/tools/SignedFloodFill.h>
 
 #include <tbb/parallel_for.h>
@@ -91,6 +92,13 @@ FloatGrid::Ptr bumpyTorus(int resolution) {
         for (auto& leaf : column) grid->tree().addLeaf(leaf.release());
     }
     openvdb::tools::signedFloodFill(grid->tree());
+    return grid;
+}
+
+FloatGrid::Ptr ball(int resolution) {
+    auto grid = openvdb::tools::createLevelSetSphere<FloatGrid>(
+        0.5f * float(resolution), openvdb::Vec3f(0.0f), 1.0f, float(kHalfWidth));
+    grid->setName("ball_" + std::to_string(resolution));
     return grid;
 }
 

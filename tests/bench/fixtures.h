@@ -12,6 +12,9 @@ namespace vdbtet::bench {
 /// with the cube of it. The tube is so thin that the mesh at 512 still fits into memory, twice.
 openvdb::FloatGrid::Ptr bumpyTorus(int resolution);
 
+/// A ball of @a resolution voxels across, as a level set of half width 3: the most inside a surface can have.
+openvdb::FloatGrid::Ptr ball(int resolution);
+
 /// A cube of @a resolution voxels, a multiple of 8, made of constant tiles: next to no surface, all interior.
 openvdb::FloatGrid::Ptr box(int resolution);
 
