@@ -131,6 +131,7 @@ void runPipeline(const Field& field, const Frame& frame, const Options& options,
     if (report.cancelled) return;
     report.points = numbering.points();
     report.tets = numbering.tets();
+    report.boundaryTriangles = numbering.triangles();
     report.tetsOfLevel = numbering.tetsOfLevel;
     while (report.tetsOfLevel.size() > 1 && report.tetsOfLevel.back() == 0) report.tetsOfLevel.pop_back();
     report.ambiguous = numbering.ambiguous;
@@ -146,13 +147,12 @@ void runPipeline(const Field& field, const Frame& frame, const Options& options,
 
     const bool wantsChunks = stage("begin", [&] { return sink.begin(totalsOf(numbering, frame)); });
     if (report.cancelled) return;
-    Measure measure = stage(wantsChunks ? "emit" : "measure", [&] {
+    AngleSum angles = stage(wantsChunks ? "emit" : "measure", [&] {
         return wantsChunks ? emitMesh(vertices, flips, grading, numbering, frame, sink, interrupt)
                            : measureMesh(vertices, flips, grading, numbering, frame, interrupt);
     });
     if (report.cancelled) return;
-    report.boundaryTriangles = measure.boundaryTriangles;
-    report.angles = measure.angles.stats();
+    report.angles = angles.stats();
     stage("end", [&] {
         sink.end();
         return 0;

@@ -95,11 +95,10 @@ struct Parcel {
 
 using Emitters = tbb::enumerable_thread_specific<std::unique_ptr<TileEmitter>>;
 
-Measure sumOf(Emitters& emitters, const Numbering& numbering) {
-    Measure sum;
+AngleSum sumOf(Emitters& emitters, const Numbering& numbering) {
+    AngleSum sum;
     for (auto& emitter : emitters) sum.add(emitter->measured());
-    for (int kind = 0; kind < kTetKinds; ++kind)
-        sum.angles.addKnown(kAnglesOfKind[kind], numbering.kinds[kind]);
+    for (int kind = 0; kind < kTetKinds; ++kind) sum.addKnown(kAnglesOfKind[kind], numbering.kinds[kind]);
     return sum;
 }
 
@@ -180,16 +179,16 @@ private:
 
 } // namespace
 
-Measure emitMesh(const Vertices& vertices, const Flips& flips, const Grading& grading,
-                 const Numbering& numbering, const Frame& frame, MeshSink& sink, Interrupt& interrupt) {
+AngleSum emitMesh(const Vertices& vertices, const Flips& flips, const Grading& grading,
+                  const Numbering& numbering, const Frame& frame, MeshSink& sink, Interrupt& interrupt) {
     Emitters emitters(
         [&] { return std::make_unique<TileEmitter>(vertices, flips, grading, numbering, frame); });
     Emission(grading, numbering, emitters, sink, interrupt).run();
     return sumOf(emitters, numbering);
 }
 
-Measure measureMesh(const Vertices& vertices, const Flips& flips, const Grading& grading,
-                    const Numbering& numbering, const Frame& frame, Interrupt& interrupt) {
+AngleSum measureMesh(const Vertices& vertices, const Flips& flips, const Grading& grading,
+                     const Numbering& numbering, const Frame& frame, Interrupt& interrupt) {
     Emitters emitters(
         [&] { return std::make_unique<TileEmitter>(vertices, flips, grading, numbering, frame); });
     // Surface tiles are in the first tier.

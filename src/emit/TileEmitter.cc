@@ -118,7 +118,7 @@ Output TileEmitter::emit(int tier, std::int64_t span, std::int64_t offset, Outpu
     const TileRef surface = mGrading.surfaceOf(tier, s.tile);
     const bool hasCells = load(tier, tile, surface, around);
     if (surface >= 0) {
-        mMeasurer.measure(surface, mTets, mStates);
+        mMeasurer.measure(surface, mTets);
         emitSurfacePoints(tile, s.tile, surface, out);
     } else {
         emitPoints(tier, tile, bcc::A,
@@ -134,7 +134,7 @@ void TileEmitter::measure(int tier, std::int64_t span) {
     const TileRef surface = mGrading.surfaceOf(tier, s.tile);
     if (surface < 0) return;
     load(tier, s.first, surface, mGrading.tiers[tier].spans.around(s.first));
-    mMeasurer.measure(surface, mTets, mStates);
+    mMeasurer.measure(surface, mTets);
 }
 
 bool TileEmitter::load(int tier, const Coord& tile, TileRef surface, const SpansAround& around) {

@@ -36,7 +36,7 @@ public:
 
     /// What was measured, of written tiles too. Only tets of surface tiles are; of the others Numbering knows
     /// the angles.
-    Measure& measured() { return mMeasurer.sum(); }
+    AngleSum& measured() { return mMeasurer.sum(); }
 
 private:
     /// @return whether the tile has tets of the lattice itself

@@ -2,23 +2,20 @@
 /// Angles of the tets that the surface moved; the others are the lattice's.
 #include "emit/TileMeasurer.h"
 
-#include "tets/BoundaryFaces.h"
-
 namespace vdbtet {
 
-void TileMeasurer::measure(TileRef tile, const TileTets& tets, const LocalStates& states) {
+void TileMeasurer::measure(TileRef tile, const TileTets& tets) {
     mPositions.load(mVertices, tile);
     if (mPositions.anyMoved()) {
         addAngles(tets);
-        mSum.boundaryTriangles += countBoundaryFaces(mVertices, tile, tets, states);
     } else {
-        mSum.angles.addLatticeTets(tets.tets());
+        mSum.addLatticeTets(tets.tets());
     }
 }
 
 void TileMeasurer::addAngles(const TileTets& tets) {
     const auto add = [&](int a, int b, int c, int d) {
-        mSum.angles.add(mPositions[a], mPositions[b], mPositions[c], mPositions[d]);
+        mSum.add(mPositions[a], mPositions[b], mPositions[c], mPositions[d]);
     };
     const auto addFlipped = [&](const LocalTet& tet) {
         add(tet.vertex(0), tet.vertex(1), tet.vertex(2), tet.vertex(3));
@@ -30,7 +27,7 @@ void TileMeasurer::addAngles(const TileTets& tets) {
             TileMask moved = tets.manifold(axis, tet[0]);
             for (int i = 1; i < 4; ++i) moved |= tets.manifold(axis, tet[i]);
             moved &= all;
-            mSum.angles.addLatticeTets(all.count() - moved.count());
+            mSum.addLatticeTets(all.count() - moved.count());
             const LocalOctahedron o = localOctahedron(bcc::A, axis, 0);
             moved.forEach([&](int n) {
                 const int base = localIndex(bcc::A, n);

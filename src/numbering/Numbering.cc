@@ -2,6 +2,7 @@
 /// Used vertices by dilation of masks, tets by masks; ids by count and scan.
 #include "numbering/Numbering.h"
 
+#include "tets/BoundaryFaces.h"
 #include "tets/TileTets.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -38,18 +39,21 @@ public:
         : tetsOfLevel(std::size_t(grading.top + 1)), mVertices(vertices), mGrading(grading), mFrame(frame),
           mTets(vertices, flips) {}
 
+    struct Counts {
+        std::int64_t tets = 0, triangles = 0;
+    };
+
     /// @param used  receives the used vertices; nothing in L_B but of a surface tile
-    /// @return the number of tets
-    std::int64_t number(int tier, const openvdb::Coord& tile, TileRef record, std::array<TileMask, 2>& used) {
+    Counts number(int tier, const openvdb::Coord& tile, TileRef record, std::array<TileMask, 2>& used) {
         const bool graded = mGrading.top > 0;
         const TileRef surface = mGrading.surfaceOf(tier, record);
         if (graded) {
             const SpansAround around = mGrading.tiers[tier].spans.around(tile);
             mGrading.load(mVertices.layout, mVertices.signs, tier, tile, around, mOctants);
         }
-        std::int64_t tets = 0;
+        Counts counts;
         if (surface >= 0) {
-            tets = numberSurface(surface, used);
+            counts = numberSurface(surface, used);
         } else {
             used[bcc::A] = mOctants.vertices();
             if (tier > 0) {
@@ -60,17 +64,17 @@ public:
                 mStates.load(mVertices, kInside);
                 mStates.keepCells(mOctants.exists(0));
                 mTets.load(kInside, mStates);
-                tets = mTets.tets();
-                kinds[std::size_t(TetKind::Lattice)] += tets;
-                tetsOfLevel[0] += tets;
+                counts.tets = mTets.tets();
+                kinds[std::size_t(TetKind::Lattice)] += counts.tets;
+                tetsOfLevel[0] += counts.tets;
             }
         }
         for (int level = 1; graded && level <= mOctants.coarsest(); ++level) {
             const std::int64_t ofLevel = countTetsOfLevel(level);
             tetsOfLevel[std::size_t(3 * tier + level)] += ofLevel;
-            tets += ofLevel;
+            counts.tets += ofLevel;
         }
-        return tets;
+        return counts;
     }
 
     std::int64_t ambiguous = 0;
@@ -79,13 +83,17 @@ public:
     openvdb::BBoxd bounds;
 
 private:
-    std::int64_t numberSurface(TileRef tile, std::array<TileMask, 2>& used) {
+    Counts numberSurface(TileRef tile, std::array<TileMask, 2>& used) {
         const bool graded = mGrading.top > 0;
         mStates.load(mVertices, tile);
         if (graded) mStates.keepCells(mOctants.exists(0));
         mTets.load(tile, mStates);
         ambiguous += mTets.ambiguous();
-        std::int64_t tets = mTets.tets();
+        Counts counts{mTets.tets(), 0};
+        if (mStates.manifoldMask(bcc::A).any() || mStates.manifoldMask(bcc::B).any()) {
+            findBoundaryFaces(mVertices, tile, mTets, mStates, mFaces);
+            counts.triangles = std::int64_t(mFaces.size());
+        }
         for (bcc::Lattice lattice : {bcc::A, bcc::B}) {
             used[lattice] = mStates.interiorMask(lattice).core();
             if (graded && lattice == bcc::A) used[lattice] &= mOctants.vertices();
@@ -101,11 +109,11 @@ private:
             forEachTetOfFringe(mOctants, mStates.interiorMask(bcc::B).core(),
                                [&](TetKind kind, int, int, int, int) {
                                    ++kinds[std::size_t(kind)];
-                                   ++tets;
+                                   ++counts.tets;
                                });
         }
-        tetsOfLevel[0] += tets;
-        return tets;
+        tetsOfLevel[0] += counts.tets;
+        return counts;
     }
 
     std::int64_t countTetsOfLevel(int level) {
@@ -135,6 +143,7 @@ private:
     LocalOctants mOctants;
     LocalStates mStates;
     TileTets mTets;
+    std::vector<LocalFace> mFaces;
 };
 
 } // namespace
@@ -153,40 +162,42 @@ Numbering numberMesh(const Vertices& vertices, const Flips& flips, const Grading
         [&] { return std::make_unique<TileNumberer>(vertices, flips, grading, frame); });
 
     numbering.firstSpan.push_back(0);
-    for (auto* first : {&numbering.firstPoint, &numbering.firstTet}) first->push_back(0);
+    for (auto* first : {&numbering.firstPoint, &numbering.firstTet, &numbering.firstTriangle})
+        first->push_back(0);
     for (int tier = 0; tier <= grading.last(); ++tier) {
         const Spans& spans = grading.tiers[tier].spans;
         std::vector<TileMask>& usedA = numbering.usedA[tier];
         usedA.resize(std::size_t(spans.size())); // a few more than records: runs have none
-        std::vector<std::int64_t> tets(std::size_t(spans.size()));
+        std::vector<TileNumberer::Counts> counts(std::size_t(spans.size()));
         parallelRanges(spans.size(), interrupt, [&](std::int64_t begin, std::int64_t end) {
             TileNumberer& numberer = *numberers.local();
             for (std::int64_t s = begin; s < end; ++s) {
                 const TileRef record = spans[s].tile;
                 if (record < 0) continue;
                 std::array<TileMask, 2> used;
-                tets[s] = numberer.number(tier, spans[s].first, record, used);
+                counts[s] = numberer.number(tier, spans[s].first, record, used);
                 usedA[record] = used[bcc::A];
                 const TileRef surface = grading.surfaceOf(tier, record);
                 if (surface >= 0) numbering.usedB[surface] = used[bcc::B];
             }
         });
 
-        for (auto* first : {&numbering.firstPoint, &numbering.firstTet})
+        for (auto* first : {&numbering.firstPoint, &numbering.firstTet, &numbering.firstTriangle})
             first->reserve(first->size() + std::size_t(spans.size()));
         for (std::int64_t s = 0; s < spans.size(); ++s) {
             const Span& span = spans[s];
             std::int64_t points = numbering.runPoints * span.count;
             if (span.tile < 0) {
-                tets[s] = numbering.runTets * span.count;
-                numbering.kinds[std::size_t(TetKind::Lattice)] += tets[s];
-                numbering.tetsOfLevel.back() += tets[s];
+                counts[s].tets = numbering.runTets * span.count;
+                numbering.kinds[std::size_t(TetKind::Lattice)] += counts[s].tets;
+                numbering.tetsOfLevel.back() += counts[s].tets;
             } else {
                 const TileRef surface = grading.surfaceOf(tier, span.tile);
                 points = usedA[span.tile].count() + (surface >= 0 ? numbering.usedB[surface].count() : 0);
             }
             numbering.firstPoint.push_back(numbering.points() + points);
-            numbering.firstTet.push_back(numbering.tets() + tets[s]);
+            numbering.firstTet.push_back(numbering.tets() + counts[s].tets);
+            numbering.firstTriangle.push_back(numbering.triangles() + counts[s].triangles);
         }
         numbering.firstSpan.push_back(numbering.firstSpan.back() + spans.size());
     }

@@ -18,13 +18,13 @@ namespace vdbtet {
 
 /// @brief Ids: those of a span's points start at firstPoint[span]; within a tile they go by rank in the used
 /// masks, L_A before L_B. Those of its tets start at firstTet[span] and go in the order of TileTets, then of
-/// the fringe, then by level.
+/// the fringe, then by level; its boundary triangles likewise, in the order of findBoundaryFaces().
 /// @details Spans are counted on from tier to tier.
 struct Numbering {
     std::vector<std::int64_t> firstSpan; ///< of each tier, and the number of all at the end
 
     /// By span, and the number of all at the end.
-    std::vector<std::int64_t> firstPoint, firstTet;
+    std::vector<std::int64_t> firstPoint, firstTet, firstTriangle;
 
     /// The used vertices of L_A, by tier and record, and of L_B, by surface tile. A vertex that a tile shares
     /// with one of the tier below belongs to that.
@@ -37,6 +37,7 @@ struct Numbering {
 
     std::int64_t points() const { return firstPoint.back(); }
     std::int64_t tets() const { return firstTet.back(); }
+    std::int64_t triangles() const { return firstTriangle.back(); } ///< of the boundary
 
     /// Tets whose shape is known, as no vertex of theirs has moved: of runs, and between octants.
     std::array<std::int64_t, kTetKinds> kinds{};

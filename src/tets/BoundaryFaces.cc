@@ -6,6 +6,9 @@ namespace vdbtet {
 
 namespace {
 
+/// The faces of a positive tet opposite to each of its vertices, counter-clockwise from outside.
+constexpr int kFaces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+
 /// A vertex in doubled coordinates: L_A even, L_B odd.
 struct Doubled {
     int c[3];
@@ -122,11 +125,12 @@ TileMask shiftedTo(const PaddedMask& mask, const Doubled& at) { return mask.shif
 
 } // namespace
 
-std::int64_t countBoundaryFaces(const Vertices& vertices, TileRef tile, const TileTets& tets,
-                                const LocalStates& states) {
+void findBoundaryFaces(const Vertices& vertices, TileRef tile, const TileTets& tets,
+                       const LocalStates& states, std::vector<LocalFace>& found) {
+    found.clear();
     const Faces faces(vertices, tile, tets.flips(), states);
-    std::int64_t count = 0;
     for (int axis = 0; axis < 3; ++axis) {
+        const LocalOctahedron o = localOctahedron(bcc::A, axis, 0);
         for (int number = 0; number < 4; ++number) {
             const auto& tet = bcc::kSliceTets[bcc::S][number];
             for (int apex = 0; apex < 4; ++apex) {
@@ -142,24 +146,36 @@ std::int64_t countBoundaryFaces(const Vertices& vertices, TileRef tile, const Ti
                 const TileMask flipped =
                     shiftedTo(tets.flips().mask(beyond.lower.lattice(), beyond.axis), beyond.lower);
                 const TileMask inside = shiftedTo(states.interiorMask(mirrored.lattice()), mirrored);
-                count += (candidates & ~flipped & ~inside).count();
+                TileMask boundary = candidates & ~flipped & ~inside;
                 (candidates & flipped).forEach([&](int n) {
                     const LocalOctahedron octahedron = localOctahedron(bcc::A, axis, localIndex(bcc::A, n));
-                    count += faces.isBoundary({octahedron, bcc::A, bcc::S, number});
+                    if (faces.isBoundary({octahedron, bcc::A, bcc::S, number})) boundary.set(n);
+                });
+                const auto& face = kFaces[apex];
+                boundary.forEach([&](int n) {
+                    const int base = localIndex(bcc::A, n);
+                    found.push_back({base + o[tet[face[0]]], base + o[tet[face[1]]], base + o[tet[face[2]]]});
                 });
             }
         }
     }
-    const auto countFlipped = [&](const LocalTet& tet) {
-        int manifold = 0;
-        for (int i = 0; i < 4; ++i) manifold += states.manifold(tet.vertex(i));
-        if (manifold == 3) count += faces.isBoundary(tet);
+    const auto addFlipped = [&](const LocalTet& tet) {
+        int manifold = 0, apex = 0;
+        for (int i = 0; i < 4; ++i) {
+            if (states.manifold(tet.vertex(i))) {
+                ++manifold;
+            } else {
+                apex = i;
+            }
+        }
+        if (manifold != 3 || !faces.isBoundary(tet)) return;
+        const auto& face = kFaces[apex];
+        found.push_back({tet.vertex(face[0]), tet.vertex(face[1]), tet.vertex(face[2])});
     };
     for (int axis = 0; axis < 3; ++axis) {
-        tets.flippedSpines(axis).forEach([&](int n) { tets.forEachTetOf(axis, n, countFlipped); });
+        tets.flippedSpines(axis).forEach([&](int n) { tets.forEachTetOf(axis, n, addFlipped); });
     }
-    tets.forEachTetOfB(countFlipped);
-    return count;
+    tets.forEachTetOfB(addFlipped);
 }
 
 } // namespace vdbtet
