@@ -51,6 +51,7 @@ MeshTotals totalsOf(const Numbering& numbering, const Frame& frame) {
     MeshTotals totals;
     totals.points = numbering.points();
     totals.tets = numbering.tets();
+    totals.triangles = numbering.triangles();
     totals.bounds = numbering.bounds;
     double magnitude = 0.0;
     for (int axis = 0; axis < 3; ++axis) {

@@ -13,10 +13,14 @@ namespace vdbtet {
 /// Four point ids, ordered such that det(p1-p0, p2-p0, p3-p0) > 0 (VTK_TETRA).
 using Tet = std::array<std::int64_t, 4>;
 
+/// Three point ids of a boundary face, counter-clockwise from outside.
+using Triangle = std::array<std::int64_t, 3>;
+
 /// The exact size of a mesh, known before the first chunk is made.
 struct MeshTotals {
     std::int64_t points = 0;
     std::int64_t tets = 0;
+    std::int64_t triangles = 0; ///< faces of exactly one tet
     /// World-space bounding box of the points.
     openvdb::BBoxd bounds;
     /// True where rounding a coordinate to float32 turns no dihedral angle by more than 0.01 degrees.
@@ -42,15 +46,19 @@ private:
     std::size_t mSize = 0;
 };
 
-/// A consecutive run of the mesh. Points and tets are numbered from 0 in the order of the chunks; a tet may
-/// name points of any other chunk.
+/// A consecutive run of the mesh. Points, tets and triangles are numbered from 0 in the order of the chunks;
+/// a tet or triangle may name points of any other chunk.
 struct MeshChunk {
     std::int64_t firstPoint = 0;
     std::int64_t firstTet = 0;
+    std::int64_t firstTriangle = 0;
     /// World-space positions of the points firstPoint, firstPoint + 1, ...; valid during the call.
     ArrayView<openvdb::Vec3d> points;
     /// Point ids of the tets firstTet, firstTet + 1, ...; valid during the call.
     ArrayView<Tet> tets;
+    /// The boundary, if the sink wants it: the triangles firstTriangle, firstTriangle + 1, ..., which are
+    /// faces of tets of this chunk; valid during the call.
+    ArrayView<Triangle> triangles;
 };
 
 /// Room for the points and tets of a chunk.
@@ -75,6 +83,9 @@ public:
     /// @return true where several threads may call chunk() at once, and in any order. Much the faster way:
     /// each chunk knows its place in the mesh.
     virtual bool concurrent() const { return false; }
+
+    /// @return true to get the boundary triangles in the chunks, too. Asked once, after begin().
+    virtual bool wantsTriangles() const { return false; }
 
     /// @brief For a sink that has memory for the whole mesh: where the chunk shall be made that starts with
     /// these.

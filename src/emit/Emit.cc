@@ -85,6 +85,7 @@ struct Parcel {
     MeshChunk chunk;
     std::vector<openvdb::Vec3d> points;
     std::vector<Tet> tets;
+    std::vector<Triangle> triangles;
 
     ChunkMemory memory(std::size_t nPoints, std::size_t nTets) {
         if (points.size() < nPoints) points.resize(nPoints);
@@ -106,7 +107,8 @@ class Emission {
 public:
     Emission(const Grading& grading, const Numbering& numbering, Emitters& emitters, MeshSink& sink,
              Interrupt& interrupt)
-        : mGrading(grading), mNumbering(numbering), mEmitters(emitters), mSink(sink), mInterrupt(interrupt) {}
+        : mGrading(grading), mNumbering(numbering), mEmitters(emitters), mSink(sink), mInterrupt(interrupt),
+          mWantsTriangles(sink.wantsTriangles()) {}
 
     void run() {
         Units units(mGrading, mNumbering);
@@ -133,6 +135,9 @@ private:
         return mNumbering.firstTet[at.span] + mNumbering.runTets * at.offset;
     }
 
+    /// A run has none.
+    std::int64_t trianglesBefore(const Place& at) const { return mNumbering.firstTriangle[at.span]; }
+
     Parcel* make(const Unit& unit) {
         Parcel* parcel = nullptr;
         if (!mSpare.try_pop(parcel)) parcel = mParcels.push_back(std::make_unique<Parcel>())->get();
@@ -141,6 +146,9 @@ private:
         chunk.firstTet = tetsBefore(unit.begin);
         const auto points = std::size_t(pointsBefore(unit.end) - chunk.firstPoint),
                    tets = std::size_t(tetsBefore(unit.end) - chunk.firstTet);
+        const auto triangles = std::size_t(trianglesBefore(unit.end) - trianglesBefore(unit.begin));
+        chunk.firstTriangle = trianglesBefore(unit.begin);
+        if (mWantsTriangles && parcel->triangles.size() < triangles) parcel->triangles.resize(triangles);
         ChunkMemory memory = mSink.memory(chunk.firstPoint, chunk.firstTet);
         // Memory that is not aligned to a tet's half takes plain stores.
         bool streaming = reinterpret_cast<std::uintptr_t>(memory.tets) % 16 == 0;
@@ -148,7 +156,8 @@ private:
             memory = parcel->memory(points, tets);
             streaming = false;
         }
-        Output out{memory.points, memory.tets, streaming};
+        Output out{memory.points, memory.tets, mWantsTriangles ? parcel->triangles.data() : nullptr,
+                   streaming};
         TileEmitter& emitter = *mEmitters.local();
         for (Place at = unit.begin; at.span != unit.end.span || at.offset != unit.end.offset;) {
             const Located span = locate(mNumbering, at.span);
@@ -158,6 +167,7 @@ private:
         if (streaming) drainStores();
         chunk.points = {memory.points, points};
         chunk.tets = {memory.tets, tets};
+        chunk.triangles = {parcel->triangles.data(), mWantsTriangles ? triangles : 0};
         return parcel;
     }
 
@@ -173,6 +183,7 @@ private:
     Emitters& mEmitters;
     MeshSink& mSink;
     Interrupt& mInterrupt;
+    const bool mWantsTriangles;
     tbb::concurrent_vector<std::unique_ptr<Parcel>> mParcels; ///< all, wherever an exception leaves them
     tbb::concurrent_queue<Parcel*> mSpare;
 };

@@ -105,7 +105,7 @@ std::int64_t PointIds::findBelow(int tier, Coord tile, int n) const {
     }
 }
 
-const std::int64_t* PointIds::all() {
+void PointIds::findAll() {
     for (int dx = -1; dx <= 1; ++dx) {
         for (int dy = -1; dy <= 1; ++dy) {
             Ids column[3];
@@ -122,7 +122,6 @@ const std::int64_t* PointIds::all() {
             }
         }
     }
-    return mIds.data();
 }
 
 PointIds::Slab PointIds::slabOf(const Ids& ids, int lattice, int x) {

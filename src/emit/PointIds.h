@@ -17,9 +17,11 @@ public:
     /// Go to a tile of a tier, and the spans around it.
     void load(int tier, const openvdb::Coord& tile, const SpansAround& around);
 
-    /// @brief The ids of all vertices in and around the tile, of tier 0, by local number; those of unused
-    /// vertices are arbitrary.
-    const std::int64_t* all();
+    /// Look up all vertices in and around the tile, of tier 0.
+    void findAll();
+
+    /// Their ids, by local number; those of unused vertices are arbitrary.
+    const std::int64_t* local() const { return mIds.data(); }
 
     /// The id of a vertex of L_A that is not beyond an upper neighbour, in units.
     std::int64_t at(int point) const {

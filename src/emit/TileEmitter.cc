@@ -125,6 +125,7 @@ Output TileEmitter::emit(int tier, std::int64_t span, std::int64_t offset, Outpu
                    s.tile < 0 ? mNumbering.usedInRun[bcc::A] : mNumbering.usedA[tier][s.tile], false, out);
     }
     if (hasCells) emitCells(out);
+    if (surface >= 0 && out.triangles) emitTriangles(surface, out);
     if (mGrading.top > 0) emitOctants(out);
     return out;
 }
@@ -152,7 +153,8 @@ bool TileEmitter::load(int tier, const Coord& tile, TileRef surface, const Spans
 void TileEmitter::emitRunTile(const Coord& tile, Output& out) {
     for (int lattice = 0; lattice < 2; ++lattice)
         emitPoints(0, tile, lattice, mNumbering.usedInRun[lattice], out.streaming, out);
-    const std::int64_t* ids = mIds.all();
+    mIds.findAll();
+    const std::int64_t* ids = mIds.local();
     out.tets = out.streaming ? writeInteriorTile<Streaming>(ids, out.tets)
                              : writeInteriorTile<Cached>(ids, out.tets);
 }
@@ -212,8 +214,15 @@ void TileEmitter::emitRow(int tier, const Coord& tile, int lattice, int row, uns
     }
 }
 
+void TileEmitter::emitTriangles(TileRef surface, Output& out) {
+    const std::int64_t* ids = mIds.local();
+    findBoundaryFaces(mVertices, surface, mTets, mStates, mFaces);
+    for (const LocalFace& face : mFaces) *out.triangles++ = {ids[face[0]], ids[face[1]], ids[face[2]]};
+}
+
 void TileEmitter::emitCells(Output& out) {
-    const std::int64_t* ids = mIds.all();
+    mIds.findAll();
+    const std::int64_t* ids = mIds.local();
     out.tets = out.streaming ? writeSurfaceTile<Streaming>(mTets, ids, out.tets)
                              : writeSurfaceTile<Cached>(mTets, ids, out.tets);
     if (mGrading.top == 0) return;

@@ -6,9 +6,12 @@
 #include "emit/PointIds.h"
 #include "emit/TileMeasurer.h"
 #include "numbering/Numbering.h"
+#include "tets/BoundaryFaces.h"
 #include "tets/TileTets.h"
 
 #include <vdbtet/MeshSink.h>
+
+#include <vector>
 
 namespace vdbtet {
 
@@ -16,7 +19,8 @@ namespace vdbtet {
 struct Output {
     openvdb::Vec3d* points;
     Tet* tets;
-    bool streaming; ///< past the caches, which the mesh would only flush; see drainStores()
+    Triangle* triangles; ///< null if nobody wants them
+    bool streaming;      ///< past the caches, which the mesh would only flush; see drainStores()
 };
 
 /// One for each thread.
@@ -48,6 +52,7 @@ private:
     void emitRow(int tier, const openvdb::Coord& tile, int lattice, int row, unsigned used, bool streaming,
                  openvdb::Vec3d* points) const;
     void emitCells(Output& out);
+    void emitTriangles(TileRef surface, Output& out);
     void emitOctants(Output& out);
 
     const Vertices& mVertices;
@@ -58,6 +63,7 @@ private:
     LocalOctants mOctants;
     TileTets mTets;
     PointIds mIds;
+    std::vector<LocalFace> mFaces;
     TileMeasurer mMeasurer;
 };
 

@@ -1,4 +1,5 @@
 // What a sink may rely on: exact totals, then chunks in order or wherever it says, and its own exceptions.
+#include "support/Boundary.h"
 #include "support/Catch.h"
 #include "support/Fixtures.h"
 #include "support/MemoryLimit.h"
@@ -244,4 +245,36 @@ TEST_CASE(
         suffices = sink.totals.float32Suffices;
     }
     CHECK_FALSE(suffices);
+}
+
+TEST_CASE("a sink that wants the boundary gets it with the chunks") {
+    struct BoundarySink final : MeshSink {
+        bool begin(const MeshTotals& announced) override {
+            totals = announced;
+            return mesh.begin(announced);
+        }
+        void chunk(const MeshChunk& chunk) override {
+            CHECK(chunk.firstTriangle == std::int64_t(triangles.size()));
+            triangles.insert(triangles.end(), chunk.triangles.begin(), chunk.triangles.end());
+            mesh.chunk(chunk);
+        }
+        void end() override { mesh.end(); }
+        bool wantsTriangles() const override { return true; }
+
+        MeshTotals totals;
+        TetMesh mesh;
+        std::vector<Triangle> triangles;
+    };
+    for (const bool grade : {false, true}) {
+        for (const auto& grid :
+             {levelSet(torus({0.3, 0.2, 0.1}, 25, 12)), randomCuts(16, 5, 0.9), randomSigns(24, 7)}) {
+            BoundarySink sink;
+            Options options = atVoxels(grid->transform().voxelSize()[0]);
+            options.grade = grade;
+            volumeToTets(*grid, sink, options);
+            REQUIRE(sink.totals.triangles == std::int64_t(sink.triangles.size()));
+            REQUIRE_FALSE(sink.triangles.empty());
+            REQUIRE(cornersOf(sink.mesh, sink.triangles) == boundaryOf(sink.mesh));
+        }
+    }
 }

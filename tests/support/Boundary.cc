@@ -8,12 +8,28 @@ namespace {
 
 /// A face, and its corners in ascending order.
 struct Face {
-    std::array<std::int64_t, 3> key, corners;
+    Triangle key, corners;
 };
 
 } // namespace
 
-std::vector<Triangle> boundaryOf(const TetMesh& mesh) {
+std::vector<Corners> cornersOf(const TetMesh& mesh, const std::vector<Triangle>& triangles) {
+    std::vector<Corners> all;
+    all.reserve(triangles.size());
+    for (const Triangle& triangle : triangles) {
+        Corners corners;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const openvdb::Vec3d& p = mesh.points[std::size_t(triangle[c])];
+            corners[c] = {p.x(), p.y(), p.z()};
+        }
+        std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+        all.push_back(corners);
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+}
+
+std::vector<Corners> boundaryOf(const TetMesh& mesh) {
     // The faces opposite to each vertex, counter-clockwise from outside.
     constexpr int kFaces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
     std::vector<Face> faces;
@@ -32,19 +48,10 @@ std::vector<Triangle> boundaryOf(const TetMesh& mesh) {
     for (std::size_t i = 0; i < faces.size();) {
         std::size_t end = i + 1;
         while (end < faces.size() && faces[end].key == faces[i].key) ++end;
-        if (end == i + 1) {
-            Triangle triangle;
-            for (std::size_t c = 0; c < 3; ++c) {
-                const openvdb::Vec3d& p = mesh.points[std::size_t(faces[i].corners[c])];
-                triangle[c] = {p.x(), p.y(), p.z()};
-            }
-            std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
-            triangles.push_back(triangle);
-        }
+        if (end == i + 1) triangles.push_back(faces[i].corners);
         i = end;
     }
-    std::sort(triangles.begin(), triangles.end());
-    return triangles;
+    return cornersOf(mesh, triangles);
 }
 
 } // namespace vdbtet::test
