@@ -2,13 +2,16 @@
 /// The options of vdb_tet, bound straight onto the library's.
 #include "CommandLine.h"
 
+#include <vdbtet/MeshFile.h>
+
 #include <CLI/CLI.hpp>
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <vector>
 
 namespace {
 
@@ -35,10 +38,7 @@ std::string isPositive(const std::string& text) {
 }
 
 void check(const CommandLine& line) {
-    if (line.out.empty() && !line.dryRun) throw UsageError("OUT.vtu is missing; --help lists the options");
-    if (!line.out.empty() && fs::path(line.out).extension() != ".vtu") {
-        throw UsageError("cannot tell the format of " + line.out + ": OUT must end in .vtu");
-    }
+    if (line.out.empty() && !line.dryRun) throw UsageError("OUT is missing; --help lists the options");
     if (!line.out.empty() && isSameFile(line.in, line.out)) {
         throw UsageError("IN and OUT are the same file: " + line.in);
     }
@@ -57,7 +57,12 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
     CLI::App app("Fill an OpenVDB volume with tetrahedra of guaranteed dihedral angles.\n", "vdb_tet");
     app.set_version_flag("--version", "vdb_tet " VDBTET_VERSION ", OpenVDB " OPENVDB_LIBRARY_VERSION_STRING);
     app.add_option("IN.vdb", line.in, "The file that holds the volume")->required();
-    app.add_option("OUT.vtu", line.out, "The mesh to write; may be left out with --dry-run");
+    app.add_option("OUT", line.out, "The mesh to write; may be left out with --dry-run");
+    std::vector<std::string> formats;
+    for (const vdbtet::MeshFormat& format : vdbtet::meshFormats()) formats.push_back(format.name);
+    app.add_option("--format", line.format, "Format of OUT. Default: by its extension")
+        ->check(CLI::IsMember(formats).description(""))
+        ->type_name(fmt::format("{}", fmt::join(formats, "|")));
     app.add_option("-n,--name", line.name,
                    "Grid to mesh; NAME[i] for the i-th, from 0, of several grids of that name. "
                    "Default: the only scalar grid, else the only level set")

@@ -16,6 +16,7 @@ struct UsageError : std::runtime_error {
 struct CommandLine {
     std::string in;
     std::string out;    ///< may be empty in a dry run
+    std::string format; ///< of OUT; empty: by its extension
     std::string name;   ///< of the grid; empty: the only one
     std::string report; ///< JSON file; empty: none
     vdbtet::Options options;

@@ -6,8 +6,8 @@
 
 #include <vdbtet/Errors.h>
 #include <vdbtet/GridFile.h>
+#include <vdbtet/MeshFile.h>
 #include <vdbtet/VolumeToTets.h>
-#include <vdbtet/VtuWriter.h>
 
 #include "io/OutputFile.h"
 
@@ -28,19 +28,27 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Passes a mesh on to the writer, or its totals to nobody in a dry run.
+/// Passes a mesh on to the file, or its totals to nobody in a dry run.
 struct Output final : vdbtet::MeshSink {
-    std::unique_ptr<vdbtet::VtuWriter> writer;
-    std::uint64_t bytes = 0;
+    explicit Output(const CommandLine& line) : path(line.out), format(line.format) {
+        if (path.empty()) path = "mesh.vtu"; // of what size would it be?
+        if (!line.dryRun) file = std::make_unique<vdbtet::MeshFile>(path, format);
+    }
 
     bool begin(const vdbtet::MeshTotals& totals) override {
-        bytes = vdbtet::VtuWriter::fileSize(totals);
-        return writer && writer->begin(totals);
+        bytes = vdbtet::MeshFile::size(path, totals, format);
+        return file && file->begin(totals);
     }
-    void chunk(const vdbtet::MeshChunk& chunk) override { writer->chunk(chunk); }
+    void chunk(const vdbtet::MeshChunk& chunk) override { file->chunk(chunk); }
     void end() override {
-        if (writer) writer->end();
+        if (file) file->end();
     }
+    bool concurrent() const override { return file && file->concurrent(); }
+    bool wantsTriangles() const override { return file && file->wantsTriangles(); }
+
+    std::string path, format;
+    std::unique_ptr<vdbtet::MeshFile> file;
+    std::uint64_t bytes = 0;
 };
 
 void print(const std::string& text) {
@@ -64,8 +72,7 @@ int run(const CommandLine& line) {
     // Opened before the work: what cannot be written should not be computed.
     std::unique_ptr<vdbtet::OutputFile> reportFile;
     if (!line.report.empty()) reportFile = std::make_unique<vdbtet::OutputFile>(line.report);
-    Output output;
-    if (!line.dryRun) output.writer = std::make_unique<vdbtet::VtuWriter>(line.out);
+    Output output(line);
 
     Summary summary;
     summary.report = vdbtet::volumeToTets(*grid, output, line.options, &interrupter);

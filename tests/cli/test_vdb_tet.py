@@ -22,7 +22,7 @@ def run(*arguments, **options):
 
 
 def read_vtu(path):
-    """The four arrays of a file in VtuWriter's form, with the layout checked on the way."""
+    """The four arrays of a file in the form of src/io/formats/Vtu.cc, with the layout checked on the way."""
     with open(path, "rb") as file:
         data = file.read()
     start = data.index(b'<AppendedData encoding="raw">')
@@ -83,7 +83,7 @@ class VdbTet(unittest.TestCase):
     def test_usage_errors(self):
         for pattern, arguments in [
             ("IN.vdb", []),
-            ("OUT.vtu is missing", ["sphere.vdb"]),
+            ("OUT is missing", ["sphere.vdb"]),
             ("--nonsense", ["sphere.vdb", "o.vtu", "--nonsense"]),
             ("--voxels", ["sphere.vdb", "o.vtu", "-s", "1", "-v", "1"]),
             ("--spacing", ["sphere.vdb", "o.vtu", "-s", "0"]),

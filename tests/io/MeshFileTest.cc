@@ -1,11 +1,11 @@
-/// @file VtuWriterTest.cc
-/// The sizes that VtuWriter announces, and what becomes of meshes that do not keep to their totals. The
+/// @file MeshFileTest.cc
+/// The sizes that MeshFile announces, and what becomes of meshes that do not keep to their totals. The
 /// content of the file is read back by tests/cli.
 #include "support/Catch.h"
 #include "support/TempFolder.h"
 
 #include <vdbtet/Errors.h>
-#include <vdbtet/VtuWriter.h>
+#include <vdbtet/MeshFile.h>
 
 #include <filesystem>
 #include <fstream>
@@ -62,13 +62,13 @@ TEST_CASE("a vtu file has the size announced") {
     for (const std::int64_t tets : {0, 1, 70000}) {
         for (const bool float32 : {false, true}) {
             const MeshTotals totals = totalsOf(tets, float32);
-            VtuWriter writer(folder.file("mesh.vtu"));
+            MeshFile writer(folder.file("mesh.vtu"));
             CHECK(writer.begin(totals));
             const std::int64_t some = tets / 2;
             give(writer, 0, some);
             give(writer, some, tets - some);
             writer.end();
-            CHECK(std::filesystem::file_size(folder.file("mesh.vtu")) == VtuWriter::fileSize(totals));
+            CHECK(std::filesystem::file_size(folder.file("mesh.vtu")) == MeshFile::size("mesh.vtu", totals));
         }
     }
     CHECK(filesIn(folder) == 1);
@@ -79,7 +79,7 @@ TEST_CASE("a vtu file does not depend on the order of its chunks") {
     const MeshTotals totals = totalsOf(1000, true);
     const std::vector<std::int64_t> begins = {0, 1, 300, 999};
     for (const bool backwards : {false, true}) {
-        VtuWriter writer(folder.file(backwards ? "b.vtu" : "a.vtu"));
+        MeshFile writer(folder.file(backwards ? "b.vtu" : "a.vtu"));
         writer.begin(totals);
         for (std::size_t i = 0; i < begins.size(); ++i) {
             const std::size_t k = backwards ? begins.size() - 1 - i : i;
@@ -95,7 +95,7 @@ TEST_CASE("indices of a vtu file take 64 bits only where 32 are too few") {
         MeshTotals totals;
         totals.points = points;
         totals.tets = tets;
-        return (double(VtuWriter::fileSize(totals)) - 24.0 * double(points)) / double(tets);
+        return (double(MeshFile::size("mesh.vtu", totals)) - 24.0 * double(points)) / double(tets);
     };
     const std::int64_t two31 = std::int64_t(1) << 31;
     CHECK(bytesPerTet(1000, two31 / 4 - 1) == Approx(16 + 4 + 1));
@@ -110,18 +110,18 @@ TEST_CASE("the old vtu file stands until the new one is whole") {
     std::ofstream(path) << "old";
 
     SECTION("a run that ends early") {
-        VtuWriter writer(path);
+        MeshFile writer(path);
         writer.begin(totalsOf(10, true));
         give(writer, 0, 5);
     }
     SECTION("fewer tets than announced") {
-        VtuWriter writer(path);
+        MeshFile writer(path);
         writer.begin(totalsOf(10, true));
         give(writer, 0, 5);
         CHECK_THROWS_AS(writer.end(), FileError);
     }
     SECTION("more tets than announced") {
-        VtuWriter writer(path);
+        MeshFile writer(path);
         writer.begin(totalsOf(10, true));
         CHECK_THROWS_AS(give(writer, 0, 11), FileError);
     }

@@ -1,0 +1,54 @@
+/// @file MeshFile.h
+/// Streams a mesh into a file of any format that is known.
+#pragma once
+
+#include <vdbtet/MeshSink.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace vdbtet {
+
+/// A format that meshes can be written in.
+struct MeshFormat {
+    std::string name;                    ///< as an option has it
+    std::vector<std::string> extensions; ///< file names' that stand for it, with the dot
+    std::string description;
+};
+
+/// All of them.
+const std::vector<MeshFormat>& meshFormats();
+
+/// @brief Writes a mesh into a file, or a few files that belong together.
+/// @details A file is written beside its target under a temporary name and renamed by end(), so the target is
+/// always either the old file or the whole new one. Coordinates are world space; binary formats have them
+/// as float32 where the format allows it and MeshTotals::float32Suffices, else as float64.
+/// Every member throws FileError when a file cannot be written, and begin() throws TooLarge when the format
+/// cannot hold so large a mesh.
+class MeshFile final : public MeshSink {
+public:
+    /// @param path    with an extension that tells the format, unless @a format does
+    /// @param format  name of a format; default: by the extension
+    /// @throw BadOption where there is no such format
+    explicit MeshFile(const std::string& path, const std::string& format = {});
+    ~MeshFile() override;
+
+    bool begin(const MeshTotals& totals) override;
+    void chunk(const MeshChunk& chunk) override;
+    void end() override;
+    bool concurrent() const override;
+    bool wantsTriangles() const override;
+
+    /// @return the exact size in bytes of what a mesh of @a totals takes in files like @a path.
+    /// @throw BadOption, TooLarge as above
+    static std::uint64_t size(const std::string& path, const MeshTotals& totals,
+                              const std::string& format = {});
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> mImpl;
+};
+
+} // namespace vdbtet

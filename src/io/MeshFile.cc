@@ -1,0 +1,129 @@
+/// @file MeshFile.cc
+/// The formats by name, and what all writers have in common.
+#include <vdbtet/MeshFile.h>
+
+#include <vdbtet/Errors.h>
+
+#include "io/formats/Format.h"
+
+#include <atomic>
+#include <filesystem>
+
+namespace vdbtet {
+
+namespace {
+
+struct Known {
+    MeshFormat format;
+    MakeFormat make;
+    /// What takes the place of the extension in the names of the files; empty for a single file of the
+    /// target's own name.
+    std::vector<std::string> files;
+};
+
+const std::vector<Known>& known() {
+    static const std::vector<Known> kKnown = {
+        {{"vtu", {".vtu"}, "VTK XML unstructured grid, raw appended"}, makeVtu, {}},
+    };
+    return kKnown;
+}
+
+std::string listOf(const std::vector<Known>& all) {
+    std::string list;
+    for (const Known& one : all) list += (list.empty() ? "" : ", ") + one.format.name;
+    return list;
+}
+
+const Known& find(const std::string& path, const std::string& name) {
+    const std::string extension = std::filesystem::path(path).extension().string();
+    for (const Known& one : known()) {
+        const auto& extensions = one.format.extensions;
+        const bool fits = name.empty()
+                              ? std::find(extensions.begin(), extensions.end(), extension) != extensions.end()
+                              : one.format.name == name;
+        if (fits) return one;
+    }
+    if (!name.empty()) throw BadOption("no format is called '" + name + "'; there are " + listOf(known()));
+    throw BadOption("cannot tell the format of " + path + " by its extension; there are " + listOf(known()));
+}
+
+std::vector<std::string> pathsOf(const std::string& path, const Known& one) {
+    if (one.files.empty()) return {path};
+    std::vector<std::string> paths;
+    for (const std::string& extension : one.files)
+        paths.push_back(std::filesystem::path(path).replace_extension(extension).string());
+    return paths;
+}
+
+} // namespace
+
+const std::vector<MeshFormat>& meshFormats() {
+    static const std::vector<MeshFormat> kFormats = [] {
+        std::vector<MeshFormat> formats;
+        for (const Known& one : known()) formats.push_back(one.format);
+        return formats;
+    }();
+    return kFormats;
+}
+
+struct MeshFile::Impl {
+    Impl(const std::string& target, const Known& one) : path(target), make(one.make) {
+        for (const std::string& name : pathsOf(target, one)) files.emplace_back(name);
+    }
+
+    std::string path;
+    MakeFormat make;
+    std::deque<RecordFile> files;
+    MeshTotals totals;
+    std::unique_ptr<const Format> format;
+    std::atomic<std::int64_t> points{0}, tets{0}, triangles{0}; ///< written
+};
+
+MeshFile::MeshFile(const std::string& path, const std::string& format)
+    : mImpl(std::make_unique<Impl>(path, find(path, format))) {}
+
+MeshFile::~MeshFile() = default;
+
+bool MeshFile::begin(const MeshTotals& totals) {
+    mImpl->totals = totals;
+    mImpl->format = mImpl->make(totals);
+    const auto& layouts = mImpl->format->layouts();
+    for (std::size_t i = 0; i < layouts.size(); ++i) mImpl->files[i].start(layouts[i]);
+    return true;
+}
+
+void MeshFile::chunk(const MeshChunk& chunk) {
+    Impl& impl = *mImpl;
+    const auto points = std::int64_t(chunk.points.size()), tets = std::int64_t(chunk.tets.size()),
+               triangles = std::int64_t(chunk.triangles.size());
+    if (chunk.firstPoint + points > impl.totals.points || chunk.firstTet + tets > impl.totals.tets ||
+        chunk.firstTriangle + triangles > impl.totals.triangles) {
+        throw FileError("cannot write " + impl.path + ": the mesh is larger than announced");
+    }
+    impl.format->write(chunk, impl.files);
+    impl.points += points;
+    impl.tets += tets;
+    impl.triangles += triangles;
+}
+
+void MeshFile::end() {
+    const Impl& impl = *mImpl;
+    if (impl.points != impl.totals.points || impl.tets != impl.totals.tets ||
+        (impl.format->wantsTriangles() && impl.triangles != impl.totals.triangles)) {
+        throw FileError("cannot write " + impl.path + ": the mesh is smaller than announced");
+    }
+    for (RecordFile& file : mImpl->files) file.commit();
+}
+
+bool MeshFile::concurrent() const { return true; }
+
+bool MeshFile::wantsTriangles() const { return mImpl->format && mImpl->format->wantsTriangles(); }
+
+std::uint64_t MeshFile::size(const std::string& path, const MeshTotals& totals, const std::string& format) {
+    const std::unique_ptr<const Format> made = find(path, format).make(totals);
+    std::uint64_t bytes = 0;
+    for (const RecordLayout& layout : made->layouts()) bytes += layout.size();
+    return bytes;
+}
+
+} // namespace vdbtet

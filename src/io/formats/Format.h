@@ -1,0 +1,47 @@
+/// @file Format.h
+/// What a mesh looks like in files of one format.
+#pragma once
+
+#include "io/RecordFile.h"
+
+#include <vdbtet/MeshSink.h>
+
+#include <cstring>
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace vdbtet {
+
+/// A mesh of known size in one format: made by MakeFormat, which lays its files out.
+class Format {
+public:
+    virtual ~Format() = default;
+
+    /// Write a chunk into @a files, one for each layout; called by several threads at once.
+    virtual void write(const MeshChunk& chunk, std::deque<RecordFile>& files) const = 0;
+
+    const std::vector<RecordLayout>& layouts() const { return mLayouts; }
+    bool wantsTriangles() const { return mWantsTriangles; }
+
+protected:
+    std::vector<RecordLayout> mLayouts;
+    bool mWantsTriangles = false;
+};
+
+/// @throw TooLarge where the format cannot hold a mesh of that size
+using MakeFormat = std::unique_ptr<Format> (*)(const MeshTotals& totals);
+
+std::unique_ptr<Format> makeVtu(const MeshTotals& totals);
+
+/// Put numbers into a record, as @a T.
+template <typename T, typename Value>
+void storeAs(char* to, const Value* values, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const T value = static_cast<T>(values[i]);
+        std::memcpy(to + i * sizeof(T), &value, sizeof(T));
+    }
+}
+
+} // namespace vdbtet
