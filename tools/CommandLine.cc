@@ -39,6 +39,7 @@ std::string isPositive(const std::string& text) {
 
 void check(const CommandLine& line) {
     if (line.out.empty() && !line.dryRun) throw UsageError("OUT is missing; --help lists the options");
+    if (!line.out.empty()) vdbtet::MeshFile::formatOf(line.out, line.format); // or it throws
     if (!line.out.empty() && isSameFile(line.in, line.out)) {
         throw UsageError("IN and OUT are the same file: " + line.in);
     }

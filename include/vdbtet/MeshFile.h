@@ -41,6 +41,10 @@ public:
     bool concurrent() const override;
     bool wantsTriangles() const override;
 
+    /// @return the format of files like @a path
+    /// @throw BadOption as above
+    static const MeshFormat& formatOf(const std::string& path, const std::string& format = {});
+
     /// @return the exact size in bytes of what a mesh of @a totals takes in files like @a path.
     /// @throw BadOption, TooLarge as above
     static std::uint64_t size(const std::string& path, const MeshTotals& totals,

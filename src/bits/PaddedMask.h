@@ -29,15 +29,24 @@ public:
     /// @return the number here of bit @a n of a TileMask.
     static constexpr int bit(int n) { return bit(n >> 6, n >> 3 & 7, n & 7); }
 
-    static constexpr int x(int n) { return n / kSlabBits - 1; }
-    static constexpr int y(int n) { return n / kRowBits % kDim - 1; }
-    static constexpr int z(int n) { return n % kRowBits - 1; }
+    static constexpr int x(int n) { return int(unsigned(n) / kSlabBits) - 1; }
+    static constexpr int y(int n) { return int(unsigned(n) / kRowBits % kDim) - 1; }
+    static constexpr int z(int n) { return int(unsigned(n) % kRowBits) - 1; }
 
     PaddedMask() = default;
     explicit PaddedMask(const MasksAround& around);
+    /// @return the mask of all bits.
     static PaddedMask filled() {
         PaddedMask mask;
         for (std::uint16_t& row : mask.rows) row = kRow;
+        return mask;
+    }
+    /// @return the mask of all bits of the tile itself.
+    static PaddedMask filledCore() {
+        PaddedMask mask;
+        for (int x = 0; x < TileMask::kDim; ++x) {
+            for (int y = 0; y < TileMask::kDim; ++y) mask.rows[bit(x, y, 0) / kRowBits] = 0xff << 1;
+        }
         return mask;
     }
 

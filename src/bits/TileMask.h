@@ -112,7 +112,7 @@ struct TileMask {
 constexpr int neighbourSlot(int dx, int dy, int dz) { return (dx + 1) * 9 + (dy + 1) * 3 + (dz + 1); }
 
 /// The tile step (-1, 0 or 1) to the tile that holds local coordinate @a x in -8..15.
-constexpr int tileStep(int x) { return x < 0 ? -1 : x > 7 ? 1 : 0; }
+constexpr int tileStep(int x) { return (x > 7) - (x < 0); }
 
 /// The masks of a tile and of its 26 neighbours.
 struct MasksAround {

@@ -2,6 +2,8 @@
 /// Signs and cut edges by mask (paper, sections 2.3 and 4.1).
 #include "cuts/Arrows.h"
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <atomic>
 
 namespace vdbtet {
@@ -103,8 +105,9 @@ Cuts findCuts(const Field& field, const std::vector<openvdb::Coord>& tiles, Inte
     cuts.signs.resize(tiles.size());
     cuts.arrows.of.resize(tiles.size());
     std::atomic<std::int64_t> cutEdges{0};
+    tbb::enumerable_thread_specific<TileCutter> cutters([&] { return TileCutter(field.sampler()); });
     parallelRanges(std::int64_t(tiles.size()), interrupt, [&](std::int64_t begin, std::int64_t end) {
-        TileCutter cutter(field.sampler());
+        TileCutter& cutter = cutters.local();
         std::int64_t sum = 0;
         for (std::int64_t t = begin; t < end; ++t) {
             TileCuts tile = cutter.cut(tiles[t]);

@@ -4,6 +4,8 @@
 
 #include "bits/PaddedMask.h"
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <algorithm>
 
 namespace vdbtet {
@@ -16,8 +18,9 @@ constexpr float kTie = 1e-6f;
 /// The nearest cut points of the vertices of one lattice of a tile.
 class Nearest {
 public:
-    void find(Field::Sampler& sampler, const openvdb::Coord& tile, bcc::Lattice lattice,
-              const EdgeMasks& edges) {
+    explicit Nearest(std::unique_ptr<Field::Sampler> sampler) : mSampler(std::move(sampler)) {}
+
+    void find(const openvdb::Coord& tile, bcc::Lattice lattice, const EdgeMasks& edges) {
         std::size_t count = 0;
         for (const TileMask& mask : edges) count += std::size_t(mask.count());
         mEdges.resize(count);
@@ -30,7 +33,7 @@ public:
                 mDistance[vertex] = 2.0f;
             });
         }
-        sampler.cutPoints(tile, lattice, mEdges, mCuts.data());
+        mSampler->cutPoints(tile, lattice, mEdges, mCuts.data());
         for (std::size_t i = 0; i < mEdges.size(); ++i) {
             float& distance = mDistance[mEdges[i].vertex];
             distance = std::min(distance, mCuts[i]);
@@ -51,6 +54,7 @@ public:
     const Choice& choice(int vertex) const { return mChoice[PaddedMask::bit(vertex)]; }
 
 private:
+    std::unique_ptr<Field::Sampler> mSampler;
     std::vector<ShortEdge> mEdges;
     std::vector<float> mCuts;                         ///< of mEdges
     std::array<float, PaddedMask::kSize> mDistance{}; ///< of vertices with edges, as the next
@@ -59,26 +63,34 @@ private:
 
 } // namespace
 
-Destinations findDestinations(const Field& field, const Layout& layout, const Arrows& arrows,
-                              const Labels& labels, Interrupt& interrupt) {
-    const std::int64_t tiles = layout.surfaceCount();
-    Destinations destinations;
-    destinations.first.resize(tiles + 1);
+void Destinations::numberMoves(const std::vector<std::array<TileMask, 2>>& manifold) {
+    first.resize(manifold.size() + 1);
+    before.resize(manifold.size());
     std::int64_t sum = 0;
-    for (std::int64_t t = 0; t < tiles; ++t) {
+    for (std::size_t t = 0; t < manifold.size(); ++t) {
         for (int lattice = 0; lattice < 2; ++lattice) {
-            destinations.first[t][lattice] = sum;
-            sum += labels.manifold[t][lattice].count();
+            first[t][lattice] = sum;
+            unsigned inLattice = 0;
+            for (int w = 0; w < TileMask::kDim; ++w) {
+                before[t][lattice][w] = std::uint16_t(inLattice);
+                inLattice += unsigned(countBits(manifold[t][lattice].words[w]));
+            }
+            sum += inLattice;
         }
     }
-    destinations.first[tiles] = {sum, sum};
-    destinations.distances.resize(sum);
-    destinations.directions.resize(sum);
+    first[manifold.size()] = {sum, sum};
+    distances.resize(sum);
+    directions.resize(sum);
+}
 
+Destinations findDestinations(const Field& field, const Layout& layout, const Arrows& arrows,
+                              const Labels& labels, Interrupt& interrupt) {
+    Destinations destinations;
+    destinations.numberMoves(labels.manifold);
     const auto& cutTiles = arrows.tiles; // no other holds a manifold vertex
+    tbb::enumerable_thread_specific<Nearest> parts([&] { return Nearest(field.sampler()); });
     parallelRanges(std::int64_t(cutTiles.size()), interrupt, [&](std::int64_t begin, std::int64_t end) {
-        const auto sampler = field.sampler();
-        Nearest nearest;
+        Nearest& nearest = parts.local();
         for (std::int64_t i = begin; i < end; ++i) {
             const TileRef t = cutTiles[i];
             const Surroundings around(layout.neighbours[t]);
@@ -92,7 +104,7 @@ Destinations findDestinations(const Field& field, const Layout& layout, const Ar
                     const bcc::Step step = bcc::shortEdge(lattice, d);
                     edges[d] = leaving[d] & manifold & ~far.shifted(step.x, step.y, step.z);
                 }
-                nearest.find(*sampler, layout.surfaceTiles[t], lattice, edges);
+                nearest.find(layout.surfaceTiles[t], lattice, edges);
                 std::int64_t move = destinations.first[t][lattice];
                 manifold.forEach([&](int vertex) {
                     destinations.distances[move] = nearest.choice(vertex).distance;

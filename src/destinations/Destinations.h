@@ -20,8 +20,13 @@ namespace vdbtet {
 struct Destinations {
     std::vector<std::array<std::int64_t, 2>>
         first; ///< the first move of a tile and lattice, and the end; they go by bit of Labels::manifold
+    std::vector<std::array<std::array<std::uint16_t, TileMask::kDim>, 2>>
+        before;                   ///< how many of them there are before each word of that mask
     std::vector<float> distances; ///< as fractions of a short edge
     std::vector<std::uint8_t> directions;
+
+    /// Make room for a move of each vertex in Labels::manifold.
+    void numberMoves(const std::vector<std::array<TileMask, 2>>& manifold);
 
     /// @return whether a surface tile has any manifold vertex.
     bool any(TileRef tile) const { return first[tile][bcc::A] != first[tile + 1][bcc::A]; }

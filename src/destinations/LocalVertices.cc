@@ -41,14 +41,6 @@ void LocalStates::load(const Vertices& vertices, TileRef tile) {
     }
 }
 
-std::int64_t LocalVertices::moveOf(int local) const {
-    const int n = bitOf(local), x = PaddedMask::x(n), y = PaddedMask::y(n), z = PaddedMask::z(n);
-    const TileRef from = (*mNeighbours)[neighbourSlot(tileStep(x), tileStep(y), tileStep(z))];
-    const bcc::Lattice lattice = latticeOf(local);
-    return mVertices.destinations.first[from][lattice] +
-           mVertices.labels.manifold[from][lattice].rank(TileMask::bit(x & 7, y & 7, z & 7));
-}
-
 LocalPositions::LocalPositions() {
     for (int local = 0; local < kLocalVertices; ++local) mPosition[local] = homeOf(local);
 }

@@ -44,8 +44,8 @@ constexpr int localIndex(int lattice, int x, int y, int z) {
 constexpr int localIndex(int lattice, int vertex) {
     return lattice * kLocalLattice + PaddedMask::bit(vertex);
 }
-constexpr bcc::Lattice latticeOf(int local) { return bcc::Lattice(local / kLocalLattice); }
-constexpr int bitOf(int local) { return local % kLocalLattice; }
+constexpr bcc::Lattice latticeOf(int local) { return bcc::Lattice(unsigned(local) / kLocalLattice); }
+constexpr int bitOf(int local) { return int(unsigned(local) % kLocalLattice); }
 
 using LocalOctahedron = std::array<int, 6>;
 
@@ -104,7 +104,15 @@ public:
     }
 
     /// The number of a manifold vertex's move in Destinations.
-    std::int64_t moveOf(int local) const;
+    std::int64_t moveOf(int local) const {
+        const int n = bitOf(local), x = PaddedMask::x(n), y = PaddedMask::y(n), z = PaddedMask::z(n);
+        const TileRef from = (*mNeighbours)[neighbourSlot(tileStep(x), tileStep(y), tileStep(z))];
+        const bcc::Lattice lattice = latticeOf(local);
+        const Destinations& all = mVertices.destinations;
+        const std::uint64_t word = mVertices.labels.manifold[from][lattice].words[x & 7],
+                            bit = std::uint64_t(1) << TileMask::bit(0, y & 7, z & 7);
+        return all.first[from][lattice] + all.before[from][lattice][x & 7] + countBits(word & (bit - 1));
+    }
 
     /// The position in lattice units, relative to L_A's lowest vertex of the tile; for manifold vertices the
     /// destination.

@@ -36,52 +36,82 @@ struct Lanes {
     VDBTET_KERNEL inline double evaluate(int i, double x) const { return diagonal(i)(start + slope * x); }
 };
 
-/// @param near  the field at the near end
-/// @param count  lanes beyond it are left alone
-VDBTET_KERNEL inline void nearHalfRoots(const Lanes& lanes, const double (&near)[kLanes], int count,
-                                        double (&root)[kLanes]) {
-    double f0[kLanes], f1[kLanes], a[kLanes], b[kLanes], last[kLanes], stayed[kLanes], side[kLanes];
-    std::int64_t active[kLanes]; // 0 or 1, as wide as a double
-    for (int i = 0; i < kLanes; ++i) {
-        f0[i] = near[i];
-        f1[i] = lanes.evaluate(i, 1.0);
-        side[i] = f0[i] >= 0.0 ? 1.0 : -1.0;
-        // By the rule for ties the cut point may lie just beyond the middle.
-        const double side1 = f1[i] >= 0.0 ? 1.0 : -1.0;
-        const bool beyond = side[i] == side1;
-        active[i] = (beyond | (f0[i] == 0.0) | (f1[i] == 0.0) | (i >= count)) ? 0 : 1;
-        root[i] = (beyond | (f0[i] != 0.0)) ? 1.0 : 0.0;
-        a[i] = 0.0;
-        b[i] = 1.0;
-        last[i] = 2.0;
-        stayed[i] = 0.0;
-    }
-    for (int iteration = 0; iteration < kRootIterations; ++iteration) {
-        std::int64_t left = 0;
-        for (int i = 0; i < kLanes; ++i) left += active[i];
-        if (left == 0) return;
+/// What rootInUnitInterval() knows of each edge, the interval being the half at the near end. Short loops
+/// over all lanes: a processor looks ahead over a few of their rounds only.
+class Brackets {
+public:
+    /// @param near   the field at the near end
+    /// @param count  lanes beyond it are left alone
+    VDBTET_KERNEL inline Brackets(const Lanes& lanes, const double (&near)[kLanes], int count) {
         for (int i = 0; i < kLanes; ++i) {
-            const double secant = (a[i] * f1[i] - b[i] * f0[i]) / (f1[i] - f0[i]);
-            const double middle = 0.5 * (a[i] + b[i]);
-            const double x = ((secant > a[i]) & (secant < b[i])) ? secant : middle;
-            const double fx = lanes.evaluate(i, x);
-            const bool found =
-                (fx == 0.0) | (std::abs(x - last[i]) < kRootTolerance) | (b[i] - a[i] < kRootTolerance);
-            root[i] = active[i] != 0 ? x : root[i];
-            active[i] = found ? 0 : active[i];
-            last[i] = x;
-            const bool moveA = (fx >= 0.0 ? 1.0 : -1.0) == side[i];
-            const double half0 = stayed[i] == 1.0 ? 0.5 * f0[i] : f0[i];
-            const double half1 = stayed[i] == -1.0 ? 0.5 * f1[i] : f1[i];
-            f0[i] = moveA ? fx : half0;
-            f1[i] = moveA ? half1 : fx;
-            a[i] = moveA ? x : a[i];
-            b[i] = moveA ? b[i] : x;
-            stayed[i] = moveA ? -1.0 : 1.0;
+            // Of two signs that differ the near end's shall be the positive one.
+            const double side = near[i] >= 0.0 ? 1.0 : -1.0;
+            mSide[i] = side;
+            mFa[i] = side * near[i];
+            mFb[i] = side * lanes.evaluate(i, 1.0);
+        }
+        for (int i = 0; i < kLanes; ++i) {
+            // By the rule for ties the cut point may lie just beyond the middle.
+            const double root = mFb[i] >= 0.0 ? 1.0 : 0.0;
+            mActive[i] = (mFb[i] < 0.0) & (mFa[i] != 0.0) & (i < count) ? 1 : 0;
+            mX[i] = mActive[i] != 0 ? 2.0 : root;
+            mA[i] = 0.0;
+            mB[i] = 1.0;
+            mWeightA[i] = 1.0;
+            mWeightB[i] = 1.0;
         }
     }
-    for (int i = 0; i < kLanes; ++i) root[i] = active[i] != 0 ? 0.5 * (a[i] + b[i]) : root[i];
-}
+
+    VDBTET_KERNEL inline void solve(const Lanes& lanes, double (&root)[kLanes]) {
+        for (int iteration = 0; iteration < kRootIterations; ++iteration) {
+            step();
+            std::int64_t left = 0;
+            for (int i = 0; i < kLanes; ++i) left += mActive[i];
+            if (left == 0) break;
+            narrow(lanes);
+        }
+        for (int i = 0; i < kLanes; ++i) root[i] = mActive[i] != 0 ? 0.5 * (mA[i] + mB[i]) : mX[i];
+    }
+
+private:
+    /// Go to the next guess; stop where that is near the last one, whatever the field is there.
+    VDBTET_KERNEL inline void step() {
+        for (int i = 0; i < kLanes; ++i) {
+            const double a = mA[i], b = mB[i], fa = mFa[i], fb = mFb[i];
+            const double secant = (a * fb - b * fa) / (fb - fa);
+            const double middle = 0.5 * (a + b);
+            const double x = ((secant > a) & (secant < b)) ? secant : middle;
+            const bool found = (std::abs(x - mX[i]) < kRootTolerance) | (b - a < kRootTolerance);
+            mX[i] = mActive[i] != 0 ? x : mX[i];
+            mActive[i] = found ? 0 : mActive[i];
+        }
+    }
+    /// Replace an end of the bracket by the guess.
+    VDBTET_KERNEL inline void narrow(const Lanes& lanes) {
+        for (int i = 0; i < kLanes; ++i) {
+            const double x = mX[i], a = mA[i], b = mB[i];
+            const double fx = mSide[i] * lanes.evaluate(i, x);
+            mActive[i] = fx == 0.0 ? 0 : mActive[i];
+            // An end that stays twice has its weight halved.
+            const bool moveA = fx > 0.0;
+            const double lighterA = mWeightA[i] * mFa[i], lighterB = mWeightB[i] * mFb[i];
+            mFa[i] = moveA ? fx : lighterA;
+            mFb[i] = moveA ? lighterB : fx;
+            mWeightA[i] = moveA ? 1.0 : 0.5;
+            mWeightB[i] = moveA ? 0.5 : 1.0;
+            // Selects from a and b would become conditional stores.
+            const double low = moveA ? x : 0.0, high = moveA ? 1.0 : x;
+            mA[i] = low > a ? low : a;
+            mB[i] = high < b ? high : b;
+        }
+    }
+
+    double mA[kLanes], mB[kLanes], mFa[kLanes], mFb[kLanes];
+    double mWeightA[kLanes], mWeightB[kLanes]; ///< of the field at an end that stays
+    double mSide[kLanes];                      ///< the sign of the field at the near end
+    double mX[kLanes];                         ///< the last guess, in the end the root
+    std::int64_t mActive[kLanes];              ///< 0 or 1, as wide as a double
+};
 
 } // namespace
 
@@ -108,7 +138,7 @@ void distancesToCuts(const CutEdges& edges, bool nearIsB, float* distance, Isa i
         lanes.start = nearIsB ? 1.0 : 0.0;
         lanes.slope = nearIsB ? -0.5 : 0.5;
         double root[kLanes];
-        nearHalfRoots(lanes, edges.near, edges.count, root);
+        Brackets(lanes, edges.near, edges.count).solve(lanes, root);
         for (int i = 0; i < edges.count; ++i) distance[i] = float(0.5 * root[i]);
     });
 }

@@ -47,28 +47,21 @@ constexpr CornerOffsets kCorners;
 
 template <typename T>
 void VoxelBlock::load(const std::array<const T*, 27>& leaves, const Level& level) {
-    const double isovalue = level.isovalue;
-    const bool below = level.insideIsBelow;
+    const double levelIsovalue = level.isovalue, levelSign = level.insideIsBelow ? -1.0 : 1.0;
     runOn(mIsa, [&]() VDBTET_KERNEL {
-        for (int columns = 0; columns < 9; ++columns) {
-            const T *under = leaves[3 * columns], *middle = leaves[3 * columns + 1],
-                    *over = leaves[3 * columns + 2];
-            const int dx = columns / 3 - 1, dy = columns % 3 - 1;
-            for (int x = dx < 0 ? 7 : 0; x <= (dx > 0 ? 0 : 7); ++x) {
-                for (int y = dy < 0 ? 7 : 0; y <= (dy > 0 ? 0 : 7); ++y) {
-                    const int n = TileMask::bit(x, y, 0);
-                    double* row = mPhi + PaddedMask::bit(x + 8 * dx, y + 8 * dy, 0);
-                    const auto copy = [&](const auto& phi) VDBTET_KERNEL {
-                        row[-1] = phi(under[n + 7]);
-                        for (int z = 0; z < 8; ++z) row[z] = phi(middle[n + z]);
-                        row[8] = phi(over[n]);
-                    };
-                    if (below) {
-                        copy([=](double value) VDBTET_KERNEL { return isovalue - value; });
-                    } else {
-                        copy([=](double value) VDBTET_KERNEL { return value - isovalue; });
-                    }
-                }
+        const double isovalue = levelIsovalue, sign = levelSign; // which no store to a row can change
+        for (int x = -1; x <= TileMask::kDim; ++x) {
+            for (int y = -1; y <= TileMask::kDim; ++y) {
+                const T* const* column = &leaves[neighbourSlot(tileStep(x), tileStep(y), 0)];
+                const int n = TileMask::bit(x & 7, y & 7, 0);
+                // The whole row of a leaf at a time, then the ends of its neighbours.
+                double values[TileMask::kDim];
+                for (int z = 0; z < TileMask::kDim; ++z)
+                    values[z] = sign * (double(column[0][n + z]) - isovalue);
+                double* row = mPhi + PaddedMask::bit(x, y, 0);
+                std::memcpy(row, values, sizeof values);
+                row[-1] = sign * (double(column[-1][n + 7]) - isovalue);
+                row[8] = sign * (double(column[1][n]) - isovalue);
             }
         }
     });

@@ -90,16 +90,18 @@ public:
         for (int lattice = 0; lattice < 2; ++lattice) {
             if (mWithExtra) mFar[lattice] = PaddedMask(around.masks(mFarMoves, lattice));
         }
+        mCodes.clear();
         mActive.clear();
         mOctahedra.clear();
-        for (bcc::Lattice lattice : {bcc::A, bcc::B}) {
-            for (int axis = 0; axis < 3; ++axis) {
-                findActive(lattice, axis);
-                if (mWithExtra) flipExtra(lattice, axis, result);
-            }
-        }
+        flipAlong<bcc::A, 0>(result);
+        flipAlong<bcc::A, 1>(result);
+        flipAlong<bcc::A, 2>(result);
+        flipAlong<bcc::B, 0>(result);
+        flipAlong<bcc::B, 1>(result);
+        flipAlong<bcc::B, 2>(result);
         flipActive(result);
-        std::sort(result.codes.begin(), result.codes.end());
+        std::sort(mCodes.begin(), mCodes.end());
+        result.codes.assign(mCodes.begin(), mCodes.end());
         return result;
     }
 
@@ -112,44 +114,63 @@ private:
         return false;
     }
 
-    /// Algorithm 4: spines between vertices inside and outside that are not manifold.
-    void findActive(bcc::Lattice lattice, int axis) {
-        const PaddedMask &interior = mLocal.interiorMask(lattice), &manifold = mLocal.manifoldMask(lattice);
-        const TileMask spines = (interior.core() ^ interior.shifted(axis == 0, axis == 1, axis == 2)) &
-                                ~(manifold.core() | manifold.shifted(axis == 0, axis == 1, axis == 2));
-        spines.forEach([&](int n) {
-            mActive.push_back({lattice, axis, bcc::S, n});
-            mOctahedra.push_back(localOctahedron(lattice, axis, localIndex(lattice, n)));
-        });
+    /// Find the spines of one kind that Algorithm 4 flips, and flip those of Algorithm 5.
+    template <bcc::Lattice lattice, int axis>
+    void flipAlong(Result& result) {
+        PaddedMask active, extra;
+        findSpines<lattice, axis>(active, extra);
+        if (active.any()) {
+            active.core().forEach([&](int n) {
+                mActive.push_back({lattice, axis, bcc::S, n});
+                mOctahedra.push_back(localOctahedron(lattice, axis, localIndex(lattice, n)));
+            });
+        }
+        if (extra.any()) flipExtra(lattice, axis, extra.core(), result);
+    }
+
+    /// @param active  receives the spines between vertices inside and outside that are not manifold
+    /// @param extra   receives those from a vertex inside to one that moves far, as two neighbours on the
+    /// ring do
+    template <bcc::Lattice lattice, int axis>
+    void findSpines(PaddedMask& active, PaddedMask& extra) const {
+        static const PaddedMask kOwn = PaddedMask::filledCore();
+        const auto &interior = mLocal.interiorMask(lattice).rows,
+                   &manifold = mLocal.manifoldMask(lattice).rows, &far = mFar[lattice].rows,
+                   &farOnRing = mFar[bcc::other(lattice)].rows;
+        constexpr int kFirst = PaddedMask::kDim + 1, kEnd = PaddedMask::kRows - kFirst; // of the tile itself
+        for (int r = kFirst; r < kEnd; ++r) {
+            const auto up = [&](const auto& rows) {
+                return std::uint16_t(rows[r + (axis == 0) * PaddedMask::kDim + (axis == 1)] >> (axis == 2));
+            };
+            const auto ring = [&](int i) {
+                const bcc::Vertex& v = bcc::kOctahedra[lattice][axis][2 + i];
+                const std::uint16_t row = farOnRing[r + v.x * PaddedMask::kDim + v.y];
+                return std::uint16_t(v.z < 0 ? row + row : row >> v.z);
+            };
+            active.rows[r] =
+                std::uint16_t((interior[r] ^ up(interior)) & ~(manifold[r] | up(manifold)) & kOwn.rows[r]);
+            extra.rows[r] = std::uint16_t(((interior[r] & up(far)) | (far[r] & up(interior))) &
+                                          (ring(0) | ring(2)) & (ring(1) | ring(3)) & kOwn.rows[r]);
+        }
     }
 
     void flipActive(Result& result) {
         chooseActiveSlices(mLocal, mOctahedra, mSlices);
         for (std::size_t i = 0; i < mActive.size(); ++i) {
             mActive[i].slice = mSlices[i];
-            result.codes.push_back(Flips::encode(mActive[i]));
+            mCodes.push_back(Flips::encode(mActive[i]));
         }
         result.active = std::int32_t(mActive.size());
     }
 
-    /// Algorithm 5: spines from a vertex inside to one that moves far, as two neighbours on the ring do.
-    void flipExtra(bcc::Lattice lattice, int axis, Result& result) {
-        const PaddedMask& interior = mLocal.interiorMask(lattice);
-        const PaddedMask& far = mFar[lattice];
-        TileMask spines = (interior.core() & far.shifted(axis == 0, axis == 1, axis == 2)) |
-                          (far.core() & interior.shifted(axis == 0, axis == 1, axis == 2));
-        if (!spines.any()) return;
-        const auto ring = [&](int i) {
-            const bcc::Vertex& v = bcc::kOctahedra[lattice][axis][2 + i];
-            return mFar[v.lattice].shifted(v.x, v.y, v.z);
-        };
-        spines &= (ring(0) | ring(2)) & (ring(1) | ring(3));
+    /// Algorithm 5.
+    void flipExtra(bcc::Lattice lattice, int axis, const TileMask& spines, Result& result) {
         spines.forEach([&](int n) {
             const LocalOctahedron octahedron = localOctahedron(lattice, axis, localIndex(lattice, n));
             const ExtraFlip flip = chooseExtraSlice(mLocal, octahedron);
             result.conflicts += flip.conflict;
             if (flip.slice == bcc::S) return;
-            result.codes.push_back(Flips::encode({lattice, axis, flip.slice, n}));
+            mCodes.push_back(Flips::encode({lattice, axis, flip.slice, n}));
             ++(flip.conflict ? result.lastResort : result.extra);
         });
     }
@@ -158,7 +179,8 @@ private:
     const std::vector<std::array<TileMask, 2>>& mFarMoves;
     bool mWithExtra;
     LocalVertices mLocal;
-    PaddedMask mFar[2]; ///< mFarMoves around the tile
+    PaddedMask mFar[2];                ///< mFarMoves around the tile
+    std::vector<std::uint16_t> mCodes; ///< of the tile
     std::vector<Flip> mActive;
     std::vector<LocalOctahedron> mOctahedra; ///< of mActive
     std::vector<bcc::Slice> mSlices;         ///< for mOctahedra
@@ -172,9 +194,13 @@ std::vector<std::array<TileMask, 2>> findFarMoves(const Vertices& vertices, Inte
             for (int lattice = 0; lattice < 2; ++lattice) {
                 const float* distance =
                     vertices.destinations.distances.data() + vertices.destinations.first[t][lattice];
-                vertices.labels.manifold[t][lattice].forEach([&](int n) {
-                    if (*distance++ >= kExtremeMove) far[t][lattice].set(n);
-                });
+                for (int w = 0; w < TileMask::kDim; ++w) {
+                    std::uint64_t left = vertices.labels.manifold[t][lattice].words[w];
+                    for (; left != 0; left &= left - 1) {
+                        const std::uint64_t isFar = *distance++ >= kExtremeMove ? 1 : 0;
+                        far[t][lattice].words[w] |= isFar << lowestBit(left);
+                    }
+                }
             }
         }
     });

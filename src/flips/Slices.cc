@@ -31,10 +31,11 @@ VDBTET_KERNEL inline double most(const double (&six)[6]) {
 struct ActiveBatch {
     static constexpr int kLanes = 16;
 
-    double at[5][3][kLanes]; ///< the inside end of the spine, then its ring
-    double side[kLanes];     ///< 1 where that is the upper end, else -1
+    double at[5][3][kLanes] = {}; ///< the inside end of the spine, then its ring
+    double side[kLanes] = {};     ///< 1 where that is the upper end, else -1
     /// By slice, A and B.
     double minCos[2][kLanes], maxCos[2][kLanes], minVolume[2][kLanes];
+    std::int64_t clear[kLanes], slicesB[kLanes]; ///< whether cosines decide alone, and how
 
     void set(int lane, const LocalVertices& vertices, const LocalOctahedron& octahedron) {
         const int end = vertices.interior(octahedron[1]) ? 1 : 0;
@@ -70,11 +71,28 @@ struct ActiveBatch {
         }
     }
 
+    /// Decide as better() does where neither a tie nor an inverted tet is near.
+    VDBTET_KERNEL inline void decide() {
+        // 1e-6 of a cosine is more than any tie of angles, and than the rounding of kMinAngle's cosine.
+        constexpr double kClear = 1e-6, kMinCos = 0.98002895910;
+        for (int i = 0; i < kLanes; ++i) {
+            const double minA = minCos[0][i], minB = minCos[1][i], maxA = maxCos[0][i], maxB = maxCos[1][i];
+            const bool upright = (minVolume[0][i] > 0.0) & (minVolume[1][i] > 0.0);
+            const bool distinct = (std::abs(maxA - maxB) > kClear) & (std::abs(minA - minB) > kClear) &
+                                  (std::abs(maxA - kMinCos) > kClear) & (std::abs(maxB - kMinCos) > kClear);
+            const bool fine = (maxA < kMinCos) & (maxB < kMinCos);
+            const std::int64_t byMax = minB > minA ? 1 : 0, byMin = maxB < maxA ? 1 : 0;
+            clear[i] = upright & distinct ? 1 : 0;
+            slicesB[i] = fine ? byMax : byMin;
+        }
+    }
+
     void judge(Isa isa) {
         // Slice A has the tets 2 3 4 and 2 4 5 of the ring, slice B 5 2 3 and 5 3 4.
         runOn(isa, [&]() VDBTET_KERNEL {
             judge<0, 0>();
             judge<1, 3>();
+            decide();
         });
     }
 };
@@ -107,14 +125,6 @@ SliceQuality sliceQuality(const LocalVertices& vertices, const LocalOctahedron& 
 
 bool better(const SliceQuality& a, const SliceQuality& b) {
     if (a.inverted != b.inverted) return b.inverted;
-    // Away from ties cosines decide alone; 1e-6 of a cosine is more than any tie of angles, and than what the
-    // cosine of kMinAngle is rounded by.
-    constexpr double kClear = 1e-6, kMinCos = 0.98002895910;
-    const auto clear = [](double x, double y) { return std::abs(x - y) > kClear; };
-    if (clear(a.maxCos, b.maxCos) && clear(a.minCos, b.minCos) && clear(a.maxCos, kMinCos) &&
-        clear(b.maxCos, kMinCos)) {
-        return a.maxCos < kMinCos && b.maxCos < kMinCos ? a.minCos > b.minCos : a.maxCos < b.maxCos;
-    }
     const double minA = angleOf(a.maxCos), maxA = angleOf(a.minCos), minB = angleOf(b.maxCos),
                  maxB = angleOf(b.minCos);
     const bool sameMin = std::abs(minA - minB) <= kTieAngle, sameMax = std::abs(maxA - maxB) <= kTieAngle;
@@ -128,11 +138,12 @@ void chooseActiveSlices(const LocalVertices& vertices, const std::vector<LocalOc
     ActiveBatch batch;
     for (std::size_t first = 0; first < octahedra.size(); first += ActiveBatch::kLanes) {
         const int count = int(std::min<std::size_t>(ActiveBatch::kLanes, octahedra.size() - first));
-        for (int lane = 0; lane < ActiveBatch::kLanes; ++lane)
-            batch.set(lane, vertices, octahedra[first + std::size_t(std::min(lane, count - 1))]);
+        for (int lane = 0; lane < count; ++lane)
+            batch.set(lane, vertices, octahedra[first + std::size_t(lane)]);
         batch.judge(isa);
         for (int lane = 0; lane < count; ++lane) {
-            const bool slicesB = better(batch.quality(1, lane), batch.quality(0, lane));
+            const bool slicesB = batch.clear[lane] ? batch.slicesB[lane] != 0
+                                                   : better(batch.quality(1, lane), batch.quality(0, lane));
             slices.push_back(slicesB ? bcc::SliceB : bcc::SliceA);
         }
     }

@@ -119,6 +119,10 @@ bool MeshFile::concurrent() const { return true; }
 
 bool MeshFile::wantsTriangles() const { return mImpl->format && mImpl->format->wantsTriangles(); }
 
+const MeshFormat& MeshFile::formatOf(const std::string& path, const std::string& format) {
+    return find(path, format).format;
+}
+
 std::uint64_t MeshFile::size(const std::string& path, const MeshTotals& totals, const std::string& format) {
     const std::unique_ptr<const Format> made = find(path, format).make(totals);
     std::uint64_t bytes = 0;

@@ -91,6 +91,12 @@ TEST_CASE("a padded mask has the tile and one bit of each neighbour", "[bits]") 
     REQUIRE(padded.count() == int(expected.size()));
 }
 
+TEST_CASE("a filled core is the tile without its border", "[bits]") {
+    const PaddedMask core = PaddedMask::filledCore();
+    REQUIRE(core.count() == TileMask::kSize);
+    REQUIRE(core.core() == TileMask::filled(true));
+}
+
 TEST_CASE("a padded mask moves down along each axis", "[bits]") {
     const PaddedMask padded(around(randomMasks(5)));
     for (int axis = 0; axis < 3; ++axis) {

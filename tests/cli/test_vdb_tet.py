@@ -92,8 +92,12 @@ class VdbTet(unittest.TestCase):
             ("--tiger", ["sphere.vdb", "o.vtu", "--tiger", "3"]),
             ("--inside", ["sphere.vdb", "o.vtu", "--inside", "out"]),
             ("--threads", ["sphere.vdb", "o.vtu", "-j", "-1"]),
-            ("must end in .vtu", ["sphere.vdb", "o.obj"]),
-            ("must end in .vtu", ["sphere.vdb", "o"]),
+            ("cannot tell the format of o.wav", ["sphere.vdb", "o.wav"]),
+            ("cannot tell the format of o ", ["sphere.vdb", "o"]),
+            ("--format", ["sphere.vdb", "o.vtu", "--format", "wav"]),
+            ("--grade", ["sphere.vdb", "o.vtu", "--max-size", "4"]),
+            ("--max-size", ["sphere.vdb", "o.vtu", "--grade", "--max-size", "0"]),
+            ("smaller than the spacing", ["sphere.vdb", "o.vtu", "--grade", "--max-size", "1e-6"]),
         ]:
             with self.subTest(arguments):
                 self.assert_fails(2, re.escape(pattern), *arguments)
@@ -116,6 +120,23 @@ class VdbTet(unittest.TestCase):
             with self.subTest(name):
                 self.assert_fails(1, pattern, name, "o.vtu")
         self.assertEqual(self.created(), [])
+
+    def test_graded_meshes(self):
+        self.assert_meshes("sphere.vdb", "u.vtu", "-q", "--report", "u.json")
+        self.assertIn("graded", self.assert_meshes("sphere.vdb", "g.vtu", "-g", "--report", "g.json"))
+        with open("u.json") as u, open("g.json") as g:
+            uniform, graded = json.load(u), json.load(g)
+        self.assertLess(graded["tets"], uniform["tets"])
+        self.assertEqual(graded["boundaryTriangles"], uniform["boundaryTriangles"])
+        self.assertEqual(sum(graded["tetsOfLevel"]), graded["tets"])
+        self.assertEqual(uniform["tetsOfLevel"], [uniform["tets"]])
+        self.assertEqual(len(read_vtu("g.vtu")["types"]), graded["tets"])
+
+    def test_formats_by_name(self):
+        self.assert_meshes("sphere.vdb", "mesh.wav", "-q", "--format", "vtu")
+        self.assert_meshes("sphere.vdb", "mesh.vtu", "-q")
+        with open("mesh.wav", "rb") as one, open("mesh.vtu", "rb") as other:
+            self.assertEqual(one.read(), other.read())
 
     def test_grid_choice(self):
         ball = self.tets("sphere.vdb")

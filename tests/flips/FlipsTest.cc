@@ -53,12 +53,10 @@ public:
             order.push_back(number);
         }
         std::sort(order.begin(), order.end(), [&](int a, int b) { return mOctahedron[a] < mOctahedron[b]; });
-        mDestinations = {};
-        const std::int64_t inA = mLabels.manifold[0][bcc::A].count(), all = std::int64_t(order.size());
-        mDestinations.first = {{0, inA}, {all, all}};
-        for (int number : order) {
-            mDestinations.directions.push_back(std::uint8_t(mMoves[number].direction));
-            mDestinations.distances.push_back(float(mMoves[number].alpha));
+        mDestinations.numberMoves(mLabels.manifold);
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            mDestinations.directions[i] = std::uint8_t(mMoves[order[i]].direction);
+            mDestinations.distances[i] = float(mMoves[order[i]].alpha);
         }
         mLocal.load(0);
         return mLocal;
