@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -40,11 +41,15 @@ std::string isPositive(const std::string& text) {
 void check(const CommandLine& line) {
     if (line.out.empty() && !line.dryRun) throw UsageError("OUT is missing; --help lists the options");
     if (!line.out.empty()) vdbtet::MeshFile::formatOf(line.out, line.format); // or it throws
-    if (!line.out.empty() && isSameFile(line.in, line.out)) {
-        throw UsageError("IN and OUT are the same file: " + line.in);
-    }
-    if (!line.report.empty() && (isSameFile(line.report, line.in) || isSameFile(line.report, line.out))) {
-        throw UsageError("--report would overwrite IN or OUT: " + line.report);
+    const std::pair<const char*, const std::string*> files[] = {
+        {"IN", &line.in}, {"OUT", &line.out}, {"--report", &line.report}, {"--surface", &line.surface}};
+    for (const auto& one : files) {
+        for (const auto* other = files; other != &one; ++other) {
+            if (!one.second->empty() && !other->second->empty() && isSameFile(*one.second, *other->second)) {
+                throw UsageError(
+                    fmt::format("{} and {} are the same file: {}", other->first, one.first, *one.second));
+            }
+        }
     }
 }
 
@@ -64,6 +69,8 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
     app.add_option("--format", line.format, "Format of OUT. Default: by its extension")
         ->check(CLI::IsMember(formats).description(""))
         ->type_name(fmt::format("{}", fmt::join(formats, "|")));
+    app.add_option("--surface", line.surface, "Write the boundary, too: .obj, .ply or .stl")
+        ->type_name("FILE");
     app.add_option("-n,--name", line.name,
                    "Grid to mesh; NAME[i] for the i-th, from 0, of several grids of that name. "
                    "Default: the only scalar grid, else the only level set")

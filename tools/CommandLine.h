@@ -15,10 +15,11 @@ struct UsageError : std::runtime_error {
 
 struct CommandLine {
     std::string in;
-    std::string out;    ///< may be empty in a dry run
-    std::string format; ///< of OUT; empty: by its extension
-    std::string name;   ///< of the grid; empty: the only one
-    std::string report; ///< JSON file; empty: none
+    std::string out;     ///< may be empty in a dry run
+    std::string format;  ///< of OUT; empty: by its extension
+    std::string surface; ///< where to write the boundary; empty: nowhere
+    std::string name;    ///< of the grid; empty: the only one
+    std::string report;  ///< JSON file; empty: none
     vdbtet::Options options;
     int threads = 0; ///< 0: all
     bool quiet = false;

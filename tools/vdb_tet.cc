@@ -7,6 +7,7 @@
 #include <vdbtet/Errors.h>
 #include <vdbtet/GridFile.h>
 #include <vdbtet/MeshFile.h>
+#include <vdbtet/SurfaceFile.h>
 #include <vdbtet/VolumeToTets.h>
 
 #include "io/OutputFile.h"
@@ -28,26 +29,34 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Passes a mesh on to the file, or its totals to nobody in a dry run.
+/// Passes a mesh on to its files, or its totals to nobody in a dry run.
 struct Output final : vdbtet::MeshSink {
     explicit Output(const CommandLine& line) : path(line.out), format(line.format) {
         if (path.empty()) path = "mesh.vtu"; // of what size would it be?
-        if (!line.dryRun) file = std::make_unique<vdbtet::MeshFile>(path, format);
+        if (line.dryRun) return;
+        file = std::make_unique<vdbtet::MeshFile>(path, format);
+        if (!line.surface.empty()) surface = std::make_unique<vdbtet::SurfaceFile>(line.surface);
     }
 
     bool begin(const vdbtet::MeshTotals& totals) override {
         bytes = vdbtet::MeshFile::size(path, totals, format);
+        if (surface) surface->begin(totals);
         return file && file->begin(totals);
     }
-    void chunk(const vdbtet::MeshChunk& chunk) override { file->chunk(chunk); }
+    void chunk(const vdbtet::MeshChunk& chunk) override {
+        if (surface) surface->chunk(chunk);
+        file->chunk(chunk);
+    }
     void end() override {
+        if (surface) surface->end();
         if (file) file->end();
     }
     bool concurrent() const override { return file && file->concurrent(); }
-    bool wantsTriangles() const override { return file && file->wantsTriangles(); }
+    bool wantsTriangles() const override { return surface || (file && file->wantsTriangles()); }
 
     std::string path, format;
     std::unique_ptr<vdbtet::MeshFile> file;
+    std::unique_ptr<vdbtet::SurfaceFile> surface; ///< or null
     std::uint64_t bytes = 0;
 };
 

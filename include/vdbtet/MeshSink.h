@@ -59,6 +59,9 @@ struct MeshChunk {
     /// The boundary, if the sink wants it: the triangles firstTriangle, firstTriangle + 1, ..., which are
     /// faces of tets of this chunk; valid during the call.
     ArrayView<Triangle> triangles;
+    /// With the triangles: the ids of the chunk's points on the surface, ascending. All corners of all
+    /// triangles are among those of some chunk.
+    ArrayView<std::int64_t> surfacePoints;
 };
 
 /// Room for the points and tets of a chunk.

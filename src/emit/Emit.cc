@@ -85,7 +85,7 @@ struct Parcel {
     MeshChunk chunk;
     std::vector<openvdb::Vec3d> points;
     std::vector<Tet> tets;
-    std::vector<Triangle> triangles;
+    ChunkBoundary boundary;
 
     ChunkMemory memory(std::size_t nPoints, std::size_t nTets) {
         if (points.size() < nPoints) points.resize(nPoints);
@@ -135,9 +135,6 @@ private:
         return mNumbering.firstTet[at.span] + mNumbering.runTets * at.offset;
     }
 
-    /// A run has none.
-    std::int64_t trianglesBefore(const Place& at) const { return mNumbering.firstTriangle[at.span]; }
-
     Parcel* make(const Unit& unit) {
         Parcel* parcel = nullptr;
         if (!mSpare.try_pop(parcel)) parcel = mParcels.push_back(std::make_unique<Parcel>())->get();
@@ -146,9 +143,9 @@ private:
         chunk.firstTet = tetsBefore(unit.begin);
         const auto points = std::size_t(pointsBefore(unit.end) - chunk.firstPoint),
                    tets = std::size_t(tetsBefore(unit.end) - chunk.firstTet);
-        const auto triangles = std::size_t(trianglesBefore(unit.end) - trianglesBefore(unit.begin));
-        chunk.firstTriangle = trianglesBefore(unit.begin);
-        if (mWantsTriangles && parcel->triangles.size() < triangles) parcel->triangles.resize(triangles);
+        chunk.firstTriangle = mNumbering.firstTriangle[unit.begin.span]; // a run has none
+        ChunkBoundary& boundary = parcel->boundary;
+        boundary.clear();
         ChunkMemory memory = mSink.memory(chunk.firstPoint, chunk.firstTet);
         // Memory that is not aligned to a tet's half takes plain stores.
         bool streaming = reinterpret_cast<std::uintptr_t>(memory.tets) % 16 == 0;
@@ -156,8 +153,7 @@ private:
             memory = parcel->memory(points, tets);
             streaming = false;
         }
-        Output out{memory.points, memory.tets, mWantsTriangles ? parcel->triangles.data() : nullptr,
-                   streaming};
+        Output out{memory.points, memory.tets, mWantsTriangles ? &boundary : nullptr, streaming};
         TileEmitter& emitter = *mEmitters.local();
         for (Place at = unit.begin; at.span != unit.end.span || at.offset != unit.end.offset;) {
             const Located span = locate(mNumbering, at.span);
@@ -167,7 +163,8 @@ private:
         if (streaming) drainStores();
         chunk.points = {memory.points, points};
         chunk.tets = {memory.tets, tets};
-        chunk.triangles = {parcel->triangles.data(), mWantsTriangles ? triangles : 0};
+        chunk.triangles = {boundary.triangles.data(), boundary.triangles.size()};
+        chunk.surfacePoints = {boundary.points.data(), boundary.points.size()};
         return parcel;
     }
 

@@ -125,7 +125,7 @@ Output TileEmitter::emit(int tier, std::int64_t span, std::int64_t offset, Outpu
                    s.tile < 0 ? mNumbering.usedInRun[bcc::A] : mNumbering.usedA[tier][s.tile], false, out);
     }
     if (hasCells) emitCells(out);
-    if (surface >= 0 && out.triangles) emitTriangles(surface, out);
+    if (surface >= 0 && out.boundary) emitBoundary(s.tile, surface, *out.boundary);
     if (mGrading.top > 0) emitOctants(out);
     return out;
 }
@@ -161,7 +161,7 @@ void TileEmitter::emitRunTile(const Coord& tile, Output& out) {
 
 void TileEmitter::emitSurfacePoints(const Coord& tile, TileRef record, TileRef surface, Output& out) {
     for (int lattice = 0; lattice < 2; ++lattice) {
-        const TileMask& used = lattice == bcc::A ? mNumbering.usedA[0][record] : mNumbering.usedB[surface];
+        const TileMask& used = usedIn(record, surface, lattice);
         const TileMask& manifold = mVertices.labels.manifold[surface][lattice];
         std::int64_t move = mVertices.destinations.first[surface][lattice];
         const Vec3d origin(8.0 * tile.x(), 8.0 * tile.y(), 8.0 * tile.z());
@@ -214,10 +214,17 @@ void TileEmitter::emitRow(int tier, const Coord& tile, int lattice, int row, uns
     }
 }
 
-void TileEmitter::emitTriangles(TileRef surface, Output& out) {
+void TileEmitter::emitBoundary(TileRef record, TileRef surface, ChunkBoundary& boundary) {
     const std::int64_t* ids = mIds.local();
+    for (int lattice = 0; lattice < 2; ++lattice) {
+        const TileMask& used = usedIn(record, surface, lattice);
+        (used & mVertices.labels.manifold[surface][lattice]).forEach([&](int n) {
+            boundary.points.push_back(ids[localIndex(lattice, n)]);
+        });
+    }
     findBoundaryFaces(mVertices, surface, mTets, mStates, mFaces);
-    for (const LocalFace& face : mFaces) *out.triangles++ = {ids[face[0]], ids[face[1]], ids[face[2]]};
+    for (const LocalFace& face : mFaces)
+        boundary.triangles.push_back({ids[face[0]], ids[face[1]], ids[face[2]]});
 }
 
 void TileEmitter::emitCells(Output& out) {

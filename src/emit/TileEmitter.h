@@ -15,12 +15,23 @@
 
 namespace vdbtet {
 
+/// The boundary of a chunk.
+struct ChunkBoundary {
+    std::vector<Triangle> triangles;
+    std::vector<std::int64_t> points;
+
+    void clear() {
+        triangles.clear();
+        points.clear();
+    }
+};
+
 /// Where tiles are written to.
 struct Output {
     openvdb::Vec3d* points;
     Tet* tets;
-    Triangle* triangles; ///< null if nobody wants them
-    bool streaming;      ///< past the caches, which the mesh would only flush; see drainStores()
+    ChunkBoundary* boundary; ///< null if nobody wants it
+    bool streaming;          ///< past the caches, which the mesh would only flush; see drainStores()
 };
 
 /// One for each thread.
@@ -52,7 +63,10 @@ private:
     void emitRow(int tier, const openvdb::Coord& tile, int lattice, int row, unsigned used, bool streaming,
                  openvdb::Vec3d* points) const;
     void emitCells(Output& out);
-    void emitTriangles(TileRef surface, Output& out);
+    void emitBoundary(TileRef record, TileRef surface, ChunkBoundary& boundary);
+    const TileMask& usedIn(TileRef record, TileRef surface, int lattice) const {
+        return lattice == bcc::A ? mNumbering.usedA[0][record] : mNumbering.usedB[surface];
+    }
     void emitOctants(Output& out);
 
     const Vertices& mVertices;

@@ -95,6 +95,7 @@ class VdbTet(unittest.TestCase):
             ("cannot tell the format of o.wav", ["sphere.vdb", "o.wav"]),
             ("cannot tell the format of o ", ["sphere.vdb", "o"]),
             ("--format", ["sphere.vdb", "o.vtu", "--format", "wav"]),
+            ("format of the surface o.wav", ["sphere.vdb", "o.vtu", "--surface", "o.wav"]),
             ("--grade", ["sphere.vdb", "o.vtu", "--max-size", "4"]),
             ("--max-size", ["sphere.vdb", "o.vtu", "--grade", "--max-size", "0"]),
             ("smaller than the spacing", ["sphere.vdb", "o.vtu", "--grade", "--max-size", "1e-6"]),
@@ -216,8 +217,12 @@ class VdbTet(unittest.TestCase):
         os.link("sphere.vdb", "hardlink.vtu")
         for name in ["symlink.vtu", "hardlink.vtu"]:
             self.assert_fails(2, "same file", "sphere.vdb", name)
-            self.assert_fails(2, "overwrite", "sphere.vdb", "o.vtu", "--report", name)
-        self.assert_fails(2, "overwrite", "sphere.vdb", "o.vtu", "--report", "./o.vtu")
+            self.assert_fails(2, "same file", "sphere.vdb", "o.vtu", "--report", name)
+        os.symlink("sphere.vdb", "symlink.ply")
+        self.inputs.append("symlink.ply")
+        self.assert_fails(2, "same file", "sphere.vdb", "o.vtu", "--surface", "symlink.ply")
+        self.assert_fails(2, "same file", "sphere.vdb", "o.vtu", "--surface", "b.ply", "--report", "./b.ply")
+        self.assert_fails(2, "same file", "sphere.vdb", "o.vtu", "--report", "./o.vtu")
         with open("sphere.vdb", "rb") as file:
             self.assertEqual(file.read(), before)
         self.assertEqual(self.created(), ["hardlink.vtu", "symlink.vtu"])
