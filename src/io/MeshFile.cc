@@ -24,6 +24,7 @@ struct Known {
 const std::vector<Known>& known() {
     static const std::vector<Known> kKnown = {
         {{"vtu", {".vtu"}, "VTK XML unstructured grid, raw appended"}, makeVtu, {}},
+        {{"vtk", {".vtk"}, "legacy VTK, binary"}, makeVtk, {}},
     };
     return kKnown;
 }

@@ -21,6 +21,13 @@ openvdb::GridBase::Ptr fog(const std::string& name) {
     return grid;
 }
 
+/// So far from the origin that float32 is too coarse for its coordinates.
+openvdb::GridBase::Ptr farSphere(const std::string& name) {
+    const auto grid = sphere(1.0f, name);
+    grid->transform().postTranslate(openvdb::Vec3d(1e6, -2e6, 3e6));
+    return grid;
+}
+
 void write(const std::string& path, const openvdb::GridCPtrVec& grids) {
     openvdb::io::File(path).write(grids);
 }
@@ -32,6 +39,7 @@ int main() {
     const auto vectors = openvdb::Vec3SGrid::create();
     vectors->setName("vel");
     write("sphere.vdb", {sphere(1.0f, "ball")});
+    write("far.vdb", {farSphere("ball")});
     write("fog.vdb", {fog("density")});
     write("vectors.vdb", {vectors});
     write("level_set_and_fog.vdb", {fog("density"), sphere(1.0f, "ball"), vectors});

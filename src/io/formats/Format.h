@@ -33,6 +33,7 @@ protected:
 /// @throw TooLarge where the format cannot hold a mesh of that size
 using MakeFormat = std::unique_ptr<Format> (*)(const MeshTotals& totals);
 
+std::unique_ptr<Format> makeVtk(const MeshTotals& totals);
 std::unique_ptr<Format> makeVtu(const MeshTotals& totals);
 
 /// Put numbers into a record, as @a T.
