@@ -25,6 +25,8 @@ const std::vector<Known>& known() {
     static const std::vector<Known> kKnown = {
         {{"vtu", {".vtu"}, "VTK XML unstructured grid, raw appended"}, makeVtu, {}},
         {{"vtk", {".vtk"}, "legacy VTK, binary"}, makeVtk, {}},
+        {{"msh", {".msh"}, "Gmsh MSH 4.1, binary"}, makeMsh, {}},
+        {{"msh22", {}, "Gmsh MSH 2.2, binary"}, makeMsh22, {}},
     };
     return kKnown;
 }

@@ -21,6 +21,18 @@ class MeshesTest(FormatTest):
     def test_vtk(self):
         self.assert_reads(read_vtk, "mesh.vtk")
 
+    def test_msh(self):
+        self.assert_reads(read_gmsh, "mesh.msh")
+
+    def test_msh_meshio(self):
+        self.assert_reads(read_meshio, "mesh.msh")
+
+    def test_msh22(self):
+        self.assert_reads(read_gmsh, "mesh.msh", "--format", "msh22")
+
+    def test_msh22_meshio(self):
+        self.assert_reads(read_meshio, "mesh.msh", "--format", "msh22")
+
 
 def read_vtk(path):
     """Points and tets as VTK reads them from a legacy file."""
@@ -33,6 +45,36 @@ def read_vtk(path):
         raise ValueError("not tets alone")
     points = numpy_support.vtk_to_numpy(grid.GetPoints().GetData())
     return points, numpy_support.vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
+
+
+def read_gmsh(path):
+    """Points and tets as Gmsh reads them: one volume, which is the physical group 1."""
+    gmsh = need("gmsh")
+    gmsh.initialize()
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.open(path)
+        entities = gmsh.model.getEntities()
+        if entities != [(3, 1)]:
+            raise ValueError(f"entities {entities}")
+        if not path.endswith(".mesh") and gmsh.model.getPhysicalGroups() != [(3, 1)]:
+            raise ValueError(f"physical groups {gmsh.model.getPhysicalGroups()}")
+        point_tags, coordinates, _ = gmsh.model.mesh.getNodes()
+        types, _, ids = gmsh.model.mesh.getElements()
+    finally:
+        gmsh.finalize()
+    if list(types) != [4]:
+        raise ValueError(f"element types {types}")
+    points = coordinates.reshape(-1, 3)[np.argsort(point_tags)]
+    return points, ids[0].astype(np.int64).reshape(-1, 4) - 1
+
+
+def read_meshio(path):
+    """Points and tets as meshio reads them."""
+    mesh = need("meshio").read(path)
+    if [block.type for block in mesh.cells] != ["tetra"]:
+        raise ValueError("not tets alone")
+    return mesh.points, mesh.cells[0].data.astype(np.int64)
 
 
 if __name__ == "__main__":
