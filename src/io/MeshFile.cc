@@ -27,6 +27,8 @@ const std::vector<Known>& known() {
         {{"vtk", {".vtk"}, "legacy VTK, binary"}, makeVtk, {}},
         {{"msh", {".msh"}, "Gmsh MSH 4.1, binary"}, makeMsh, {}},
         {{"msh22", {}, "Gmsh MSH 2.2, binary"}, makeMsh22, {}},
+        {{"mesh", {".mesh"}, "Medit, text"}, makeMesh, {}},
+        {{"meshb", {".meshb"}, "Medit, binary"}, makeMeshb, {}},
     };
     return kKnown;
 }

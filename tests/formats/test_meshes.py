@@ -33,6 +33,15 @@ class MeshesTest(FormatTest):
     def test_msh22_meshio(self):
         self.assert_reads(read_meshio, "mesh.msh", "--format", "msh22")
 
+    def test_mesh(self):
+        self.assert_reads(read_gmsh, "mesh.mesh")
+
+    def test_mesh_meshio(self):
+        self.assert_reads(read_meshio, "mesh.mesh")
+
+    def test_meshb(self):
+        self.assert_reads(read_meshio, "mesh.meshb")
+
 
 def read_vtk(path):
     """Points and tets as VTK reads them from a legacy file."""

@@ -33,6 +33,8 @@ protected:
 /// @throw TooLarge where the format cannot hold a mesh of that size
 using MakeFormat = std::unique_ptr<Format> (*)(const MeshTotals& totals);
 
+std::unique_ptr<Format> makeMesh(const MeshTotals& totals);
+std::unique_ptr<Format> makeMeshb(const MeshTotals& totals);
 std::unique_ptr<Format> makeMsh(const MeshTotals& totals);
 std::unique_ptr<Format> makeMsh22(const MeshTotals& totals);
 std::unique_ptr<Format> makeVtk(const MeshTotals& totals);
