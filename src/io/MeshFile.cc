@@ -24,6 +24,7 @@ struct Known {
 const std::vector<Known>& known() {
     static const std::vector<Known> kKnown = {
         {{"vtu", {".vtu"}, "VTK XML unstructured grid, raw appended"}, makeVtu, {}},
+        {{"vtu-inline", {}, "VTK XML unstructured grid, inline base64"}, makeVtuInline, {}},
         {{"vtk", {".vtk"}, "legacy VTK, binary"}, makeVtk, {}},
         {{"msh", {".msh"}, "Gmsh MSH 4.1, binary"}, makeMsh, {}},
         {{"msh22", {}, "Gmsh MSH 2.2, binary"}, makeMsh22, {}},

@@ -1,7 +1,7 @@
 """The formats of mesh generators and solvers, each read back by a program that is not ours."""
 import numpy as np
 
-from support import FormatTest, main, need
+from support import FormatTest, main, need, read_vtu
 
 # A volume far from the origin, whose coordinates need float64.
 FAR = "far.vdb"
@@ -41,6 +41,12 @@ class MeshesTest(FormatTest):
 
     def test_meshb(self):
         self.assert_reads(read_meshio, "mesh.meshb")
+
+    def test_vtu_inline(self):
+        self.assert_reads(read_vtu, "mesh.vtu", "--format", "vtu-inline")
+
+    def test_vtu_inline_meshio(self):
+        self.assert_reads(read_meshio, "mesh.vtu", "--format", "vtu-inline")
 
 
 def read_vtk(path):

@@ -39,6 +39,7 @@ std::unique_ptr<Format> makeMsh(const MeshTotals& totals);
 std::unique_ptr<Format> makeMsh22(const MeshTotals& totals);
 std::unique_ptr<Format> makeVtk(const MeshTotals& totals);
 std::unique_ptr<Format> makeVtu(const MeshTotals& totals);
+std::unique_ptr<Format> makeVtuInline(const MeshTotals& totals);
 
 /// Put numbers into a record, as @a T.
 template <typename T, typename Value>
