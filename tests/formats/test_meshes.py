@@ -1,7 +1,7 @@
 """The formats of mesh generators and solvers, each read back by a program that is not ours."""
-import numpy as np
-
 from support import FormatTest, main, need, read_vtu
+
+np = need("numpy")
 
 # A volume far from the origin, whose coordinates need float64.
 FAR = "far.vdb"
@@ -20,6 +20,9 @@ class MeshesTest(FormatTest):
 
     def test_vtk(self):
         self.assert_reads(read_vtk, "mesh.vtk")
+
+    def test_vtk_meshio(self):
+        self.assert_reads(read_meshio, "mesh.vtk")
 
     def test_msh(self):
         self.assert_reads(read_gmsh, "mesh.msh")

@@ -1,6 +1,6 @@
 /// @file MeshFileTest.cc
 /// The sizes that MeshFile announces, and what becomes of meshes that do not keep to their totals. The
-/// content of the file is read back by tests/cli.
+/// contents of the files are read back by tests/cli and tests/formats.
 #include "support/Catch.h"
 #include "support/TempFolder.h"
 
@@ -10,17 +10,23 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 
 namespace {
 
 using namespace vdbtet;
 using test::TempFolder;
 
+MeshTotals counts(std::int64_t points, std::int64_t tets) {
+    MeshTotals totals;
+    totals.points = points;
+    totals.tets = tets;
+    return totals;
+}
+
 /// Separate unit tets.
 MeshTotals totalsOf(std::int64_t tets, bool float32) {
-    MeshTotals totals;
-    totals.points = 4 * tets;
-    totals.tets = tets;
+    MeshTotals totals = counts(4 * tets, tets);
     totals.float32Suffices = float32;
     return totals;
 }
@@ -50,51 +56,66 @@ std::string contents(const std::string& path) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-std::ptrdiff_t filesIn(const TempFolder& folder) {
-    const auto directory = std::filesystem::path(folder.file("x")).parent_path();
-    return std::distance(std::filesystem::directory_iterator(directory), {});
+std::filesystem::directory_iterator filesAt(const TempFolder& folder) {
+    return std::filesystem::directory_iterator(std::filesystem::path(folder.file("x")).parent_path());
+}
+
+std::ptrdiff_t filesIn(const TempFolder& folder) { return std::distance(filesAt(folder), {}); }
+
+/// Write tets in chunks that end before the tets @a ends, the last one first if @a backwards.
+/// @return the contents of the files, by their names
+std::map<std::string, std::string> filesOf(const std::string& format, const MeshTotals& totals,
+                                           const std::vector<std::int64_t>& ends, bool backwards = false) {
+    const TempFolder folder;
+    {
+        MeshFile writer(folder.file("mesh"), format);
+        CHECK(writer.begin(totals));
+        for (std::size_t i = 0; i < ends.size(); ++i) {
+            const std::size_t k = backwards ? ends.size() - 1 - i : i;
+            const std::int64_t begin = k == 0 ? 0 : ends[k - 1];
+            give(writer, begin, ends[k] - begin);
+        }
+        writer.end();
+    }
+    std::map<std::string, std::string> files;
+    for (const auto& entry : filesAt(folder))
+        files[entry.path().filename().string()] = contents(entry.path().string());
+    return files;
 }
 
 } // namespace
 
-TEST_CASE("a vtu file has the size announced") {
-    const TempFolder folder;
-    for (const std::int64_t tets : {0, 1, 70000}) {
-        for (const bool float32 : {false, true}) {
-            const MeshTotals totals = totalsOf(tets, float32);
-            MeshFile writer(folder.file("mesh.vtu"));
-            CHECK(writer.begin(totals));
-            const std::int64_t some = tets / 2;
-            give(writer, 0, some);
-            give(writer, some, tets - some);
-            writer.end();
-            CHECK(std::filesystem::file_size(folder.file("mesh.vtu")) == MeshFile::size("mesh.vtu", totals));
+TEST_CASE("a file of any format has the size announced") {
+    for (const MeshFormat& format : meshFormats()) {
+        for (const std::int64_t tets : {0, 1, 2, 3, 70000}) {
+            for (const bool float32 : {false, true}) {
+                CAPTURE(format.name, tets, float32);
+                const MeshTotals totals = totalsOf(tets, float32);
+                std::uint64_t bytes = 0;
+                for (const auto& [name, content] : filesOf(format.name, totals, {tets / 2, tets}))
+                    bytes += content.size();
+                CHECK(bytes == MeshFile::size("mesh", totals, format.name));
+            }
         }
     }
-    CHECK(filesIn(folder) == 1);
 }
 
-TEST_CASE("a vtu file does not depend on the order of its chunks") {
-    const TempFolder folder;
-    const MeshTotals totals = totalsOf(1000, true);
-    const std::vector<std::int64_t> begins = {0, 1, 300, 999};
-    for (const bool backwards : {false, true}) {
-        MeshFile writer(folder.file(backwards ? "b.vtu" : "a.vtu"));
-        writer.begin(totals);
-        for (std::size_t i = 0; i < begins.size(); ++i) {
-            const std::size_t k = backwards ? begins.size() - 1 - i : i;
-            give(writer, begins[k], (k + 1 < begins.size() ? begins[k + 1] : totals.tets) - begins[k]);
+TEST_CASE("a file of any format does not depend on its chunks and their order") {
+    for (const MeshFormat& format : meshFormats()) {
+        for (const bool float32 : {false, true}) {
+            CAPTURE(format.name, float32);
+            const MeshTotals totals = totalsOf(1000, float32);
+            const auto whole = filesOf(format.name, totals, {1000});
+            const std::vector<std::int64_t> ends = {1, 2, 3, 3, 300, 301, 998, 999, 1000, 1000};
+            CHECK(filesOf(format.name, totals, ends) == whole);
+            CHECK(filesOf(format.name, totals, ends, true) == whole);
         }
-        writer.end();
     }
-    CHECK(contents(folder.file("a.vtu")) == contents(folder.file("b.vtu")));
 }
 
 TEST_CASE("indices of a vtu file take 64 bits only where 32 are too few") {
     const auto bytesPerTet = [](std::int64_t points, std::int64_t tets) {
-        MeshTotals totals;
-        totals.points = points;
-        totals.tets = tets;
+        const MeshTotals totals = counts(points, tets);
         return (double(MeshFile::size("mesh.vtu", totals)) - 24.0 * double(points)) / double(tets);
     };
     const std::int64_t two31 = std::int64_t(1) << 31;
@@ -102,6 +123,40 @@ TEST_CASE("indices of a vtu file take 64 bits only where 32 are too few") {
     CHECK(bytesPerTet(1000, two31 / 4) == Approx(16 + 8 + 1));
     CHECK(bytesPerTet(two31, two31 / 4) == Approx(16 + 8 + 1));
     CHECK(bytesPerTet(two31 + 1, two31 / 4) == Approx(32 + 8 + 1));
+}
+
+TEST_CASE("a legacy vtk file is of the new version only where the old one cannot hold the mesh") {
+    const auto bytesPerTet = [](std::int64_t points, std::int64_t tets) {
+        const MeshTotals totals = counts(points, tets);
+        return (double(MeshFile::size("mesh.vtk", totals)) - 24.0 * double(points)) / double(tets);
+    };
+    const std::int64_t two31 = std::int64_t(1) << 31;
+    CHECK(bytesPerTet(1000, two31 / 5) == Approx(4 + 16 + 4));
+    CHECK(bytesPerTet(1000, two31 / 5 + 1) == Approx(8 + 32 + 4));
+    CHECK(bytesPerTet(two31, two31 / 5) == Approx(4 + 16 + 4));
+    CHECK(bytesPerTet(two31 + 1, two31 / 5) == Approx(8 + 32 + 4));
+}
+
+TEST_CASE("positions and ids of a meshb file take 64 bits only where 32 are too few") {
+    const auto size = [](std::int64_t points, std::int64_t tets) {
+        return std::int64_t(MeshFile::size("mesh.meshb", counts(points, tets)));
+    };
+    constexpr std::int64_t kMaxInt32 = (std::int64_t(1) << 31) - 1, kMostTets = (kMaxInt32 - 52 - 28) / 20;
+    CHECK(size(1, kMostTets) == 52 + 28 + 20 * kMostTets);
+    CHECK(size(1, kMostTets + 1) == 68 + 28 + 20 * (kMostTets + 1));
+    CHECK(size(kMaxInt32, kMaxInt32) == 68 + 28 * kMaxInt32 + 20 * kMaxInt32);
+    CHECK(size(kMaxInt32 + 1, 1) == 76 + 32 * (kMaxInt32 + 1) + 40);
+    CHECK(size(1, kMaxInt32 + 1) == 76 + 32 + 40 * (kMaxInt32 + 1));
+}
+
+TEST_CASE("an msh22 file is refused where its ids would need more than 32 bits") {
+    const auto size = [](std::int64_t points, std::int64_t tets) {
+        return MeshFile::size("mesh.msh", counts(points, tets), "msh22");
+    };
+    constexpr std::int64_t kMaxInt32 = (std::int64_t(1) << 31) - 1;
+    CHECK(size(kMaxInt32, kMaxInt32) > 0);
+    CHECK_THROWS_AS(size(kMaxInt32 + 1, 1), TooLarge);
+    CHECK_THROWS_AS(size(1, kMaxInt32 + 1), TooLarge);
 }
 
 TEST_CASE("the old vtu file stands until the new one is whole") {
