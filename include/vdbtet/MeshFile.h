@@ -23,10 +23,10 @@ const std::vector<MeshFormat>& meshFormats();
 
 /// @brief Writes a mesh into a file, or a few files that belong together.
 /// @details A file is written beside its target under a temporary name and renamed by end(), so the target is
-/// always either the old file or the whole new one. Coordinates are world space; binary formats have them
-/// as float32 where the format allows it and MeshTotals::float32Suffices, else as float64.
-/// Every member throws FileError when a file cannot be written, and begin() throws TooLarge when the format
-/// cannot hold so large a mesh.
+/// always either the old file or the whole new one. Coordinates are world space, and float64, or float32
+/// where MeshTotals::float32Suffices and the format is used with either; texts have the digits that these
+/// need. Every member throws FileError when a file cannot be written, and begin() throws TooLarge when the
+/// format cannot hold so large a mesh.
 class MeshFile final : public MeshSink {
 public:
     /// @param path    with an extension that tells the format, unless @a format does

@@ -2,8 +2,8 @@
 /// Medit's format, binary: keywords, each with the position of the next one, in front of rows like those of
 /// Mesh.cc. Coordinates are float64.
 ///
-/// The version is 2 where positions in the file fit into 32 bits, which not all readers get beyond, else 3,
-/// and 4 where ids and counts need 64 bits, too.
+/// The version is 2 where positions in the file fit into 32 bits, the last that Mmg reads, else 3, and 4
+/// where ids and counts need 64 bits, too.
 #include "io/formats/Format.h"
 
 #include <algorithm>
