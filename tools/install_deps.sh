@@ -11,7 +11,7 @@ for option in "$@"; do
     case $option in
     --tests) packages="$packages catch2 python3" ;;
     --bench) packages="$packages libbenchmark-dev python3" ;;
-    --ci) packages="$packages clang-format-14 python3-vtk9 python3-meshio python3-gmsh" ;;
+    --ci) packages="$packages clang-format-14 python3-vtk9 python3-meshio python3-gmsh tetgen" ;;
     *) echo "usage: tools/install_deps.sh [--tests] [--bench] [--ci]" >&2 && exit 2 ;;
     esac
 done

@@ -30,6 +30,13 @@ const std::vector<Known>& known() {
         {{"msh22", {}, "Gmsh MSH 2.2, binary"}, makeMsh22, {}},
         {{"mesh", {".mesh"}, "Medit, text"}, makeMesh, {}},
         {{"meshb", {".meshb"}, "Medit, binary"}, makeMeshb, {}},
+        {{"tetgen", {".ele", ".node"}, "TetGen .node, .ele and .face, text"},
+         makeTetGen,
+         {".node", ".ele", ".face"}},
+        {{"npz", {".npz"}, "NumPy arrays vertices and tet_indices, for Newton and Warp"}, makeNpz, {}},
+        {{"inp", {".inp"}, "Abaqus input, text"}, makeInp, {}},
+        {{"geo", {".geo"}, "Houdini geometry, JSON text"}, makeGeo, {}},
+        {{"usda", {".usda"}, "OpenUSD TetMesh, text"}, makeUsda, {}},
     };
     return kKnown;
 }
@@ -118,6 +125,7 @@ void MeshFile::end() {
         (impl.format->wantsTriangles() && impl.triangles != impl.totals.triangles)) {
         throw FileError("cannot write " + impl.path + ": the mesh is smaller than announced");
     }
+    impl.format->finish(mImpl->files);
     for (RecordFile& file : mImpl->files) file.commit();
 }
 

@@ -22,6 +22,9 @@ public:
     /// Write a chunk into @a files, one for each layout; called by several threads at once.
     virtual void write(const MeshChunk& chunk, std::deque<RecordFile>& files) const = 0;
 
+    /// Write what is known only now that every chunk is written.
+    virtual void finish(std::deque<RecordFile>& files) const { static_cast<void>(files); }
+
     const std::vector<RecordLayout>& layouts() const { return mLayouts; }
     bool wantsTriangles() const { return mWantsTriangles; }
 
@@ -40,6 +43,11 @@ std::unique_ptr<Format> makeMsh22(const MeshTotals& totals);
 std::unique_ptr<Format> makeVtk(const MeshTotals& totals);
 std::unique_ptr<Format> makeVtu(const MeshTotals& totals);
 std::unique_ptr<Format> makeVtuInline(const MeshTotals& totals);
+std::unique_ptr<Format> makeTetGen(const MeshTotals& totals);
+std::unique_ptr<Format> makeNpz(const MeshTotals& totals);
+std::unique_ptr<Format> makeInp(const MeshTotals& totals);
+std::unique_ptr<Format> makeGeo(const MeshTotals& totals);
+std::unique_ptr<Format> makeUsda(const MeshTotals& totals);
 
 /// Put numbers into a record, as @a T.
 template <typename T, typename Value>

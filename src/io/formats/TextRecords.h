@@ -1,42 +1,62 @@
 /// @file TextRecords.h
-/// Numbers of text formats, padded with spaces on the left to a width that is the same for all records. They
-/// do not depend on the locale.
+/// Records of text: rows whose numbers are padded with spaces to columns of one width, so that each row has
+/// its place in the file as a binary record has.
 #pragma once
 
-#include <algorithm>
-#include <charconv>
+#include "io/RecordFile.h"
+
+#include <vdbtet/MeshSink.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <string>
 
 namespace vdbtet {
 
-/// Characters that any coordinate fits into.
-inline std::size_t coordinateWidth(bool float32) { return float32 ? 15 : 24; }
+/// How a format writes numbers.
+struct TextNumbers {
+    /// @param idOfFirst  of the first point, the first tet and the first triangle: 0 or 1
+    TextNumbers(const MeshTotals& totals, std::int64_t idOfFirst);
 
-/// Characters that the ids up to @a largest fit into.
-inline std::size_t idWidth(std::int64_t largest) { return std::to_string(largest).size(); }
+    void useFloat32(bool use);
 
-/// Move the @a size characters at @a to to the right end of @a width.
-/// @return where the next number goes
-inline char* alignRight(char* to, std::size_t size, std::size_t width) {
-    std::copy_backward(to, to + size, to + width);
-    std::fill(to, to + (width - size), ' ');
-    return to + width;
-}
+    std::int64_t firstId;
+    std::size_t idWidth;
+    bool float32;                         ///< round to float first, for the same values as in a binary format
+    std::size_t realWidth;                ///< enough for every number to be read back as it was
+    openvdb::Vec3d origin{0.0, 0.0, 0.0}; ///< taken off the coordinates
+};
 
-/// Write such a coordinate that a reader gets the very same number: as float32, or as float64.
-inline char* putCoordinate(char* to, double value, bool float32) {
-    const std::size_t width = coordinateWidth(float32);
-    // The shortest text of a float32 may become its neighbour by way of a float64, the one of nine digits
-    // does not.
-    const auto end = float32 ? std::to_chars(to, to + width, float(value), std::chars_format::general, 9).ptr
-                             : std::to_chars(to, to + width, value).ptr;
-    return alignRight(to, std::size_t(end - to), width);
-}
+/// A section of rows of one pattern.
+class TextRows {
+public:
+    TextRows() = default;
 
-inline char* putId(char* to, std::int64_t id, std::size_t width) {
-    return alignRight(to, std::size_t(std::to_chars(to, to + width, id).ptr - to), width);
-}
+    /// @param pattern  text where '*' stands for the next coordinate, '#' for the next id and '@' for the id
+    /// of the row itself. A comma in front is left out of the first row.
+    TextRows(RecordLayout& layout, std::int64_t count, const std::string& pattern,
+             const TextNumbers& numbers);
+
+    void put(RecordFile& file, std::int64_t first, const ArrayView<openvdb::Vec3d>& points) const;
+    void put(RecordFile& file, std::int64_t first, const ArrayView<Tet>& tets) const;
+    void put(RecordFile& file, std::int64_t first, const ArrayView<Triangle>& triangles) const;
+
+private:
+    template <typename Row>
+    void putRows(RecordFile& file, std::int64_t first, const ArrayView<Row>& rows) const;
+    template <typename Row>
+    char* write(char* to, std::int64_t number, const Row& row) const;
+
+    std::string mPattern;
+    TextNumbers mNumbers{MeshTotals(), 0};
+    RecordLayout::Section mSection;
+};
+
+/// @return the shortest text that is read back as @a value, of type float or double
+template <typename Real>
+std::string shortest(Real value);
+
+/// @throw TooLarge where a mesh has more than @a most of what the format numbers
+void requireAtMost(std::int64_t most, std::int64_t count, const char* what, const char* format);
 
 } // namespace vdbtet
