@@ -108,6 +108,14 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
                        "Default: {}",
                        options.maxSurfaceTiles))
         ->type_name("N");
+    auto* sample =
+        app.add_option("--sample", line.sample,
+                       "Grids of IN whose values the points shall carry, trilinear; all for all others")
+            ->delimiter(',')
+            ->type_name("GRID,...");
+    app.add_option("--fields-from", line.fieldsFrom, "With --sample: the file that holds them. Default: IN")
+        ->type_name("FILE.vdb")
+        ->needs(sample);
     app.add_option("-j,--threads", line.threads, "Threads to use. Default: 0, all")
         ->check(CLI::Range(0, 4096).description(""))
         ->type_name("N");

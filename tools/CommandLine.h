@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 /// The command line makes no sense; exit code 2.
 struct UsageError : std::runtime_error {
@@ -15,11 +16,13 @@ struct UsageError : std::runtime_error {
 
 struct CommandLine {
     std::string in;
-    std::string out;     ///< may be empty in a dry run
-    std::string format;  ///< of OUT; empty: by its extension
-    std::string surface; ///< where to write the boundary; empty: nowhere
-    std::string name;    ///< of the grid; empty: the only one
-    std::string report;  ///< JSON file; empty: none
+    std::string out;                 ///< may be empty in a dry run
+    std::string format;              ///< of OUT; empty: by its extension
+    std::string surface;             ///< where to write the boundary; empty: nowhere
+    std::string name;                ///< of the grid; empty: the only one
+    std::vector<std::string> sample; ///< grids whose values the points carry; "all" for all others
+    std::string fieldsFrom;          ///< the file that holds them; empty: IN
+    std::string report;              ///< JSON file; empty: none
     vdbtet::Options options;
     int threads = 0; ///< 0: all
     bool quiet = false;

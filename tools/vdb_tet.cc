@@ -5,6 +5,7 @@
 #include "Summary.h"
 
 #include <vdbtet/Errors.h>
+#include <vdbtet/FieldSampler.h>
 #include <vdbtet/GridFile.h>
 #include <vdbtet/MeshFile.h>
 #include <vdbtet/SurfaceFile.h>
@@ -66,6 +67,15 @@ void print(const std::string& text) {
     }
 }
 
+std::vector<openvdb::GridBase::ConstPtr> fieldsOf(const CommandLine& line, const openvdb::GridBase& meshed) {
+    if (line.sample.empty()) return {};
+    const bool elsewhere = !line.fieldsFrom.empty();
+    const bool all = line.sample.size() == 1 && line.sample[0] == "all";
+    return vdbtet::readFields(elsewhere ? line.fieldsFrom : line.in,
+                              all ? std::vector<std::string>() : line.sample,
+                              elsewhere ? std::string() : meshed.getName());
+}
+
 int run(const CommandLine& line) {
     SignalInterrupter interrupter;
     std::unique_ptr<tbb::global_control> threads;
@@ -83,8 +93,10 @@ int run(const CommandLine& line) {
     if (!line.report.empty()) reportFile = std::make_unique<vdbtet::OutputFile>(line.report);
     Output output(line);
 
+    vdbtet::FieldSampler sampler(output, fieldsOf(line, *grid));
+
     Summary summary;
-    summary.report = vdbtet::volumeToTets(*grid, output, line.options, &interrupter);
+    summary.report = vdbtet::volumeToTets(*grid, sampler, line.options, &interrupter);
     if (summary.report.cancelled) {
         fmt::print(stderr, "vdb_tet: interrupted; nothing was written\n");
         return 128 + interrupter.signal();

@@ -5,6 +5,7 @@
 #include <openvdb/Grid.h>
 
 #include <string>
+#include <vector>
 
 namespace vdbtet {
 
@@ -19,5 +20,11 @@ namespace vdbtet {
 /// @throw UnsupportedGrid  when no name is given and no single scalar grid stands out
 openvdb::GridBase::Ptr readGrid(const std::string& path, const std::string& name = {},
                                 bool delayLoad = false);
+
+/// @brief Read the grids of a .vdb file whose values a mesh shall carry.
+/// @param names  as above; or empty for all that FieldSampler can sample but the grid named @a except
+/// @throw FileError as above
+std::vector<openvdb::GridBase::ConstPtr>
+readFields(const std::string& path, const std::vector<std::string>& names, const std::string& except = {});
 
 } // namespace vdbtet

@@ -7,6 +7,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 namespace vdbtet {
 
@@ -15,6 +17,12 @@ using Tet = std::array<std::int64_t, 4>;
 
 /// Three point ids of a boundary face, counter-clockwise from outside.
 using Triangle = std::array<std::int64_t, 3>;
+
+/// Values at the points of a mesh, float32.
+struct PointField {
+    std::string name;
+    int components = 1; ///< numbers a point: 1 or 3
+};
 
 /// The exact size of a mesh, known before the first chunk is made.
 struct MeshTotals {
@@ -25,6 +33,8 @@ struct MeshTotals {
     openvdb::BBoxd bounds;
     /// True where rounding a coordinate to float32 turns no dihedral angle by more than 0.01 degrees.
     bool float32Suffices = false;
+    /// What comes with the points; empty unless a FieldSampler is between.
+    std::vector<PointField> pointFields;
 };
 
 /// A view of consecutive values that someone else owns.
@@ -62,6 +72,9 @@ struct MeshChunk {
     /// With the triangles: the ids of the chunk's points on the surface, ascending. All corners of all
     /// triangles are among those of some chunk.
     ArrayView<std::int64_t> surfacePoints;
+    /// For each of MeshTotals::pointFields the values at the chunk's points, the components of a point side
+    /// by side; valid during the call.
+    std::vector<ArrayView<float>> pointFields;
 };
 
 /// Room for the points and tets of a chunk.

@@ -3,6 +3,7 @@
 #include <vdbtet/GridFile.h>
 
 #include <vdbtet/Errors.h>
+#include <vdbtet/FieldSampler.h>
 
 #include "io/GridArchive.h"
 
@@ -131,20 +132,14 @@ std::size_t findTheOne(GridArchive& archive, const std::string& path) {
     throw UnsupportedGrid(path + " holds several scalar grids; choose one by its name: " + listing(archive));
 }
 
-} // namespace
-
-openvdb::GridBase::Ptr readGrid(const std::string& path, const std::string& name, bool delayLoad) {
+/// Open a file, and let @a work(GridArchive&) read from it.
+template <typename Work>
+auto withArchive(const std::string& path, const Work& work) {
     openvdb::initialize();
     requireVdbFile(path);
     try {
         GridArchive archive(path);
-        const std::size_t index = name.empty() ? findTheOne(archive, path) : findByName(archive, path, name);
-        const Entry& entry = archive.entries()[index];
-        if (!entry.grid) {
-            throw UnsupportedGrid(path + ": the grid is a " + entry.descriptor.gridType() +
-                                  ", a type that OpenVDB does not know");
-        }
-        return archive.read(entry, delayLoad);
+        return work(archive);
     } catch (const Error&) {
         throw;
     } catch (const std::ios_base::failure&) {
@@ -154,6 +149,41 @@ openvdb::GridBase::Ptr readGrid(const std::string& path, const std::string& name
     } catch (const std::exception& error) {
         throw FileError("cannot read " + path + ": " + error.what());
     }
+}
+
+openvdb::GridBase::Ptr readEntry(GridArchive& archive, const std::string& path, std::size_t index,
+                                 bool delayLoad) {
+    const Entry& entry = archive.entries()[index];
+    if (!entry.grid) {
+        throw UnsupportedGrid(path + ": the grid is a " + entry.descriptor.gridType() +
+                              ", a type that OpenVDB does not know");
+    }
+    return archive.read(entry, delayLoad);
+}
+
+} // namespace
+
+openvdb::GridBase::Ptr readGrid(const std::string& path, const std::string& name, bool delayLoad) {
+    return withArchive(path, [&](GridArchive& archive) {
+        const std::size_t index = name.empty() ? findTheOne(archive, path) : findByName(archive, path, name);
+        return readEntry(archive, path, index, delayLoad);
+    });
+}
+
+std::vector<openvdb::GridBase::ConstPtr>
+readFields(const std::string& path, const std::vector<std::string>& names, const std::string& except) {
+    return withArchive(path, [&](GridArchive& archive) {
+        std::vector<openvdb::GridBase::ConstPtr> grids;
+        for (const std::string& name : names)
+            grids.push_back(readEntry(archive, path, findByName(archive, path, name), false));
+        if (!names.empty()) return grids;
+        for (std::size_t i = 0; i < archive.entries().size(); ++i) {
+            const Entry& entry = archive.entries()[i];
+            if (!entry.grid || !FieldSampler::canSample(*entry.grid) || plainName(entry) == except) continue;
+            grids.push_back(readEntry(archive, path, i, false));
+        }
+        return grids;
+    });
 }
 
 } // namespace vdbtet

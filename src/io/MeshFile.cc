@@ -68,6 +68,16 @@ std::vector<std::string> pathsOf(const std::string& path, const Known& one) {
     return paths;
 }
 
+/// Lay a mesh out.
+std::unique_ptr<const Format> makeFormat(const Known& one, const MeshTotals& totals) {
+    std::unique_ptr<const Format> format = one.make(totals);
+    if (!totals.pointFields.empty() && !format->holdsFields()) {
+        throw BadOption("the format " + one.format.name +
+                        " is written without fields at points; vtu, vtk and npz have them");
+    }
+    return format;
+}
+
 } // namespace
 
 const std::vector<MeshFormat>& meshFormats() {
@@ -80,12 +90,12 @@ const std::vector<MeshFormat>& meshFormats() {
 }
 
 struct MeshFile::Impl {
-    Impl(const std::string& target, const Known& one) : path(target), make(one.make) {
+    Impl(const std::string& target, const Known& one) : path(target), known(one) {
         for (const std::string& name : pathsOf(target, one)) files.emplace_back(name);
     }
 
     std::string path;
-    MakeFormat make;
+    const Known& known;
     std::deque<RecordFile> files;
     MeshTotals totals;
     std::unique_ptr<const Format> format;
@@ -99,7 +109,7 @@ MeshFile::~MeshFile() = default;
 
 bool MeshFile::begin(const MeshTotals& totals) {
     mImpl->totals = totals;
-    mImpl->format = mImpl->make(totals);
+    mImpl->format = makeFormat(mImpl->known, totals);
     const auto& layouts = mImpl->format->layouts();
     for (std::size_t i = 0; i < layouts.size(); ++i) mImpl->files[i].start(layouts[i]);
     return true;
@@ -138,7 +148,7 @@ const MeshFormat& MeshFile::formatOf(const std::string& path, const std::string&
 }
 
 std::uint64_t MeshFile::size(const std::string& path, const MeshTotals& totals, const std::string& format) {
-    const std::unique_ptr<const Format> made = find(path, format).make(totals);
+    const std::unique_ptr<const Format> made = makeFormat(find(path, format), totals);
     std::uint64_t bytes = 0;
     for (const RecordLayout& layout : made->layouts()) bytes += layout.size();
     return bytes;

@@ -27,10 +27,13 @@ public:
 
     const std::vector<RecordLayout>& layouts() const { return mLayouts; }
     bool wantsTriangles() const { return mWantsTriangles; }
+    /// Whether MeshTotals::pointFields are written.
+    bool holdsFields() const { return mHoldsFields; }
 
 protected:
     std::vector<RecordLayout> mLayouts;
     bool mWantsTriangles = false;
+    bool mHoldsFields = false;
 };
 
 /// @throw TooLarge where the format cannot hold a mesh of that size
@@ -56,6 +59,15 @@ void storeAs(char* to, const Value* values, std::size_t count) {
         const T value = static_cast<T>(values[i]);
         std::memcpy(to + i * sizeof(T), &value, sizeof(T));
     }
+}
+
+/// Write the values of a field as they are in memory, for a section that has a record for each point.
+inline void putField(RecordFile& file, const RecordLayout::Section& section, std::int64_t firstPoint,
+                     std::size_t points, const ArrayView<float>& values) {
+    const std::size_t components = section.recordBytes / sizeof(float);
+    file.put(section, firstPoint, points, [&](std::size_t i, std::size_t n, char* to) {
+        std::memcpy(to, &values[i * components], n * section.recordBytes);
+    });
 }
 
 } // namespace vdbtet

@@ -1,6 +1,8 @@
 /// @file Npz.cc
-/// NumPy's .npz: an archive of the arrays `vertices` and `tet_indices`, as Newton and Warp load them.
+/// NumPy's .npz: an archive of the arrays `vertices` and `tet_indices`, as Newton and Warp load them, and of
+/// `point_NAME` for each field.
 #include "io/formats/Format.h"
+#include "io/formats/Names.h"
 #include "io/formats/StoredZip.h"
 
 #include <limits>
@@ -9,12 +11,12 @@ namespace vdbtet {
 
 namespace {
 
-/// The header of an array in a file of its own.
+/// The header of an array in a file of its own; of one dimension for one column.
 std::string npyHeader(char kind, std::size_t itemBytes, std::int64_t rows, int columns) {
     const char order = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__ ? '>' : '<';
     std::string header = std::string("{'descr': '") + order + kind + std::to_string(itemBytes) +
-                         "', 'fortran_order': False, 'shape': (" + std::to_string(rows) + ", " +
-                         std::to_string(columns) + "), }";
+                         "', 'fortran_order': False, 'shape': (" + std::to_string(rows) + "," +
+                         (columns == 1 ? "" : " " + std::to_string(columns)) + "), }";
     const std::size_t before = 10; // bytes of magic, version and length; all of it is a multiple of 64
     header.append(63 - (before + header.size()) % 64, ' ').append("\n");
     return "\x93NUMPY" + littleEndian({{1, 1}, {0, 1}, {header.size(), 2}}) + header;
@@ -31,6 +33,7 @@ private:
     bool mFloat32, mInt32;
     StoredZip mZip;
     StoredZip::Entry *mPoints, *mTets;
+    std::vector<StoredZip::Entry*> mFields;
 };
 
 Npz::Npz(const MeshTotals& totals)
@@ -42,6 +45,12 @@ Npz::Npz(const MeshTotals& totals)
                            3 * realBytes);
     mTets = &mZip.append(layout, "tet_indices.npy", npyHeader('i', idBytes, totals.tets, 4), totals.tets,
                          4 * idBytes);
+    mHoldsFields = true;
+    for (const PointField& field : totals.pointFields) {
+        mFields.push_back(&mZip.append(layout, "point_" + fileName(field.name) + ".npy",
+                                       npyHeader('f', 4, totals.points, field.components), totals.points,
+                                       4 * std::size_t(field.components)));
+    }
     mZip.appendDirectory(layout);
     mLayouts.push_back(std::move(layout));
 }
@@ -57,6 +66,13 @@ void Npz::write(const MeshChunk& chunk, std::deque<RecordFile>& files) const {
             const std::int64_t* from = chunk.tets[i].data();
             mInt32 ? storeAs<std::int32_t>(to, from, 4 * n) : storeAs<std::int64_t>(to, from, 4 * n);
         });
+    for (std::size_t f = 0; f < mFields.size(); ++f) {
+        const std::size_t components = mFields[f]->records.recordBytes / 4;
+        StoredZip::put(files[0], *mFields[f], chunk.firstPoint, chunk.points.size(),
+                       [&](std::size_t i, std::size_t n, char* to) {
+                           storeAs<float>(to, &chunk.pointFields[f][i * components], n * components);
+                       });
+    }
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 /// fit: every reader knows that one, SOFA's among them. Larger meshes take version 5.1, with int64 offsets
 /// and connectivity as VTK 9 has them.
 #include "io/formats/Format.h"
+#include "io/formats/Names.h"
 
 #include <limits>
 #include <type_traits>
@@ -42,6 +43,7 @@ private:
     bool mFloat32, mInt32;
     RecordLayout::Section mPoints, mCells, mTypes;
     RecordLayout::Section mOffsets; ///< in version 5.1
+    std::vector<RecordLayout::Section> mFields;
 };
 
 Vtk::Vtk(const MeshTotals& totals)
@@ -67,6 +69,17 @@ Vtk::Vtk(const MeshTotals& totals)
     layout.text("\nCELL_TYPES " + tets + "\n");
     mTypes = layout.records(totals.tets, 4);
     layout.text("\n");
+    mHoldsFields = true;
+    if (!totals.pointFields.empty()) {
+        layout.text("POINT_DATA " + points + "\nFIELD FieldData " +
+                    std::to_string(totals.pointFields.size()) + "\n");
+    }
+    for (const PointField& field : totals.pointFields) {
+        layout.text(percentName(field.name) + " " + std::to_string(field.components) + " " + points +
+                    " float\n");
+        mFields.push_back(layout.records(totals.points, 4 * std::size_t(field.components)));
+        layout.text("\n");
+    }
     mLayouts.push_back(std::move(layout));
 }
 
@@ -98,6 +111,13 @@ void Vtk::write(const MeshChunk& chunk, std::deque<RecordFile>& files) const {
     file.put(mTypes, chunk.firstTet, chunk.tets.size(), [](std::size_t, std::size_t n, char* to) {
         for (std::size_t k = 0; k < n; ++k) storeBigEndianAs<std::int32_t>(to + 4 * k, &kVtkTetra, 1);
     });
+    for (std::size_t f = 0; f < mFields.size(); ++f) {
+        const std::size_t components = mFields[f].recordBytes / 4;
+        file.put(mFields[f], chunk.firstPoint, chunk.points.size(),
+                 [&](std::size_t i, std::size_t n, char* to) {
+                     storeBigEndianAs<float>(to, &chunk.pointFields[f][i * components], n * components);
+                 });
+    }
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 /// The VTK XML file format with raw appended data (version 1.0, UInt64 headers): a text header, then blocks
 /// [UInt64 bytes][data], each at an offset known from the totals alone.
 #include "io/formats/Format.h"
+#include "io/formats/Names.h"
 
 #include <limits>
 
@@ -14,9 +15,8 @@ constexpr char kVtkTetra = 10;
 
 /// An array of the file.
 struct Block {
-    const char* type;
-    const char* name;
-    const char* more; ///< attributes
+    std::string type, name;
+    std::string more; ///< attributes
     std::int64_t records;
     std::size_t recordBytes;
     std::uint64_t bytes() const { return std::uint64_t(records) * recordBytes; }
@@ -31,6 +31,7 @@ public:
 private:
     bool mFloat32, mInt32Connectivity, mInt32Offsets;
     RecordLayout::Section mPoints, mConnectivity, mOffsets, mTypes;
+    std::vector<RecordLayout::Section> mFields;
 };
 
 Vtu::Vtu(const MeshTotals& totals)
@@ -43,6 +44,13 @@ Vtu::Vtu(const MeshTotals& totals)
     const Block offsets{mInt32Offsets ? "Int32" : "Int64", "offsets", "", totals.tets,
                         std::size_t(mInt32Offsets ? 4 : 8)};
     const Block types{"UInt8", "types", "", totals.tets, 1};
+    std::vector<Block> fields;
+    for (const PointField& field : totals.pointFields) {
+        fields.push_back({"Float32", xmlName(field.name),
+                          " NumberOfComponents=\"" + std::to_string(field.components) + "\"", totals.points,
+                          4 * std::size_t(field.components)});
+    }
+    mHoldsFields = true;
 
     std::uint64_t appended = 0;
     const auto array = [&appended](const Block& block) {
@@ -66,8 +74,11 @@ Vtu::Vtu(const MeshTotals& totals)
     header += "      </Points>\n"
               "      <Cells>\n";
     for (const Block* block : {&connectivity, &offsets, &types}) header += array(*block);
-    header += "      </Cells>\n"
-              "    </Piece>\n"
+    header += "      </Cells>\n";
+    if (!fields.empty()) header += "      <PointData>\n";
+    for (const Block& block : fields) header += array(block);
+    if (!fields.empty()) header += "      </PointData>\n";
+    header += "    </Piece>\n"
               "  </UnstructuredGrid>\n"
               "  <AppendedData encoding=\"raw\">\n"
               "_";
@@ -82,6 +93,7 @@ Vtu::Vtu(const MeshTotals& totals)
     mConnectivity = append(connectivity);
     mOffsets = append(offsets);
     mTypes = append(types);
+    for (const Block& block : fields) mFields.push_back(append(block));
     layout.text("\n  </AppendedData>\n</VTKFile>\n");
     mLayouts.push_back(std::move(layout));
 }
@@ -108,6 +120,8 @@ void Vtu::write(const MeshChunk& chunk, std::deque<RecordFile>& files) const {
     });
     file.put(mTypes, chunk.firstTet, chunk.tets.size(),
              [](std::size_t, std::size_t n, char* to) { std::memset(to, kVtkTetra, n); });
+    for (std::size_t f = 0; f < mFields.size(); ++f)
+        putField(file, mFields[f], chunk.firstPoint, chunk.points.size(), chunk.pointFields[f]);
 }
 
 } // namespace
