@@ -1,5 +1,5 @@
 /// @file GridFile.h
-/// Finds the grid to mesh in a .vdb file.
+/// Finds the grid to mesh in a .vdb file, and those whose values the mesh shall carry.
 #pragma once
 
 #include <openvdb/Grid.h>
@@ -11,10 +11,9 @@ namespace vdbtet {
 
 /// @brief Read one grid of a .vdb file.
 /// @param path       a regular file written by OpenVDB
-/// @param name       a grid's name, NAME[i] for the i-th (from 0) of several grids of that name, or [i] for
-/// the
-///                   i-th of the unnamed ones. Empty: the file's only float or double grid, else its only
-///                   level set.
+/// @param name       a grid's name; NAME[i] for the i-th (from 0) of several grids of that name, [i] for
+///                   the i-th of the unnamed ones; empty for the file's only float or double grid, else
+///                   its only level set
 /// @param delayLoad  leave the leaf buffers on disk until they are touched, where this OpenVDB can
 /// @throw FileError        when the file cannot be read, or the name is not in it; the message lists what is
 /// @throw UnsupportedGrid  when no name is given and no single scalar grid stands out
