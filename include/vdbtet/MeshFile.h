@@ -26,7 +26,7 @@ const std::vector<MeshFormat>& meshFormats();
 /// always either the old file or the whole new one. Coordinates are world space, and float64, or float32
 /// where MeshTotals::float32Suffices and the format is used with either; texts have the digits that these
 /// need. Every member throws FileError when a file cannot be written, and begin() throws TooLarge when the
-/// format cannot hold so large a mesh.
+/// format cannot hold so large a mesh, and BadOption when there are fields at points and it cannot hold them.
 class MeshFile final : public MeshSink {
 public:
     /// @param path    with an extension that tells the format, unless @a format does

@@ -13,7 +13,7 @@ namespace vdbtet {
 /// @details Triangles are counter-clockwise seen from outside; points are in the order of the mesh. The .ply
 /// is binary, with coordinates as float32 where MeshTotals::float32Suffices, else as float64; the .stl is
 /// binary and always float32; the .obj has as many digits as the numbers need. The boundary is kept in memory
-/// until end(), some 100 bytes a point. Files are written and renamed as MeshFile's are. Every member throws
+/// until end(). Files are written and renamed as MeshFile's are. Every member throws
 /// FileError when the file cannot be written, and begin() throws TooLarge for more points or triangles than
 /// the format can count.
 class SurfaceFile final : public MeshSink {

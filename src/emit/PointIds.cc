@@ -17,9 +17,6 @@ const TileMask kLowest = [] {
     return mask;
 }();
 
-Coord parentOf(const Coord& tile) { return Coord(tile.x() >> 3, tile.y() >> 3, tile.z() >> 3); }
-int bitInParent(const Coord& tile) { return TileMask::bit(tile.x() & 7, tile.y() & 7, tile.z() & 7); }
-
 } // namespace
 
 void PointIds::load(int tier, const Coord& tile, const SpansAround& around) {

@@ -134,7 +134,8 @@ void TileEmitter::measure(int tier, std::int64_t span) {
     const Span& s = mGrading.tiers[tier].spans[span];
     const TileRef surface = mGrading.surfaceOf(tier, s.tile);
     if (surface < 0) return;
-    load(tier, s.first, surface, mGrading.tiers[tier].spans.around(s.first));
+    const bool graded = mGrading.top > 0; // or else nobody asks what is around
+    load(tier, s.first, surface, graded ? mGrading.tiers[tier].spans.around(s.first) : SpansAround{});
     mMeasurer.measure(surface, mTets);
 }
 

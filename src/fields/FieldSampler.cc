@@ -94,17 +94,18 @@ bool trySample(const openvdb::GridBase::ConstPtr& grid, std::unique_ptr<Sampled>
     return typed != nullptr;
 }
 
-/// @return null for types that cannot be sampled
-std::unique_ptr<Sampled> makeSampled(const openvdb::GridBase::ConstPtr& grid) {
-    std::unique_ptr<Sampled> sampled;
-    if (trySample<openvdb::FloatGrid>(grid, sampled) || trySample<openvdb::DoubleGrid>(grid, sampled) ||
-        trySample<openvdb::Int32Grid>(grid, sampled) || trySample<openvdb::Int64Grid>(grid, sampled) ||
-        trySample<openvdb::Vec3SGrid>(grid, sampled) || trySample<openvdb::Vec3DGrid>(grid, sampled) ||
-        trySample<openvdb::Vec3IGrid>(grid, sampled)) {
-        return sampled;
+template <typename... GridTs>
+struct GridTypes {
+    static bool contain(const openvdb::GridBase& grid) { return (grid.isType<GridTs>() || ...); }
+    /// @return null for other types
+    static std::unique_ptr<Sampled> sampled(const openvdb::GridBase::ConstPtr& grid) {
+        std::unique_ptr<Sampled> result;
+        static_cast<void>((trySample<GridTs>(grid, result) || ...));
+        return result;
     }
-    return nullptr;
-}
+};
+using Samplable = GridTypes<openvdb::FloatGrid, openvdb::DoubleGrid, openvdb::Int32Grid, openvdb::Int64Grid,
+                            openvdb::Vec3SGrid, openvdb::Vec3DGrid, openvdb::Vec3IGrid>;
 
 } // namespace
 
@@ -119,7 +120,7 @@ FieldSampler::FieldSampler(MeshSink& next, const std::vector<openvdb::GridBase::
     std::set<std::string> names;
     for (const auto& grid : grids) {
         std::string name = grid->getName().empty() ? "field" : grid->getName();
-        std::unique_ptr<Sampled> sampled = makeSampled(grid);
+        std::unique_ptr<Sampled> sampled = Samplable::sampled(grid);
         if (!sampled) {
             throw UnsupportedGrid("grid '" + name + "' of type " + grid->valueType() +
                                   " cannot be sampled; only float, double, int and vector grids can");
@@ -133,12 +134,7 @@ FieldSampler::FieldSampler(MeshSink& next, const std::vector<openvdb::GridBase::
 
 FieldSampler::~FieldSampler() = default;
 
-bool FieldSampler::canSample(const openvdb::GridBase& grid) {
-    return grid.isType<openvdb::FloatGrid>() || grid.isType<openvdb::DoubleGrid>() ||
-           grid.isType<openvdb::Int32Grid>() || grid.isType<openvdb::Int64Grid>() ||
-           grid.isType<openvdb::Vec3SGrid>() || grid.isType<openvdb::Vec3DGrid>() ||
-           grid.isType<openvdb::Vec3IGrid>();
-}
+bool FieldSampler::canSample(const openvdb::GridBase& grid) { return Samplable::contain(grid); }
 
 bool FieldSampler::begin(const MeshTotals& totals) {
     MeshTotals more = totals;

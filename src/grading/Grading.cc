@@ -187,10 +187,7 @@ private:
 
     /// The records of this tier, as octants of the next.
     Units takeChildren() {
-        const auto parentOf = [](const Coord& tile) {
-            return Coord(tile.x() >> 3, tile.y() >> 3, tile.z() >> 3);
-        };
-        tbb::parallel_sort(mChildren.begin(), mChildren.end(), [&](const Coord& a, const Coord& b) {
+        tbb::parallel_sort(mChildren.begin(), mChildren.end(), [](const Coord& a, const Coord& b) {
             const Coord parentA = parentOf(a), parentB = parentOf(b);
             return parentA != parentB ? parentA < parentB : a < b;
         });
@@ -198,10 +195,8 @@ private:
         for (std::size_t c = 0; c < mChildren.size();) {
             const Coord parent = parentOf(mChildren[c]);
             TileMask mask;
-            for (; c < mChildren.size() && parentOf(mChildren[c]) == parent; ++c) {
-                const Coord& child = mChildren[c];
-                mask.set(TileMask::bit(child.x() & 7, child.y() & 7, child.z() & 7));
-            }
+            for (; c < mChildren.size() && parentOf(mChildren[c]) == parent; ++c)
+                mask.set(bitInParent(mChildren[c]));
             units.append(parent, mask);
         }
         mChildren.clear();

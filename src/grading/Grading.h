@@ -18,6 +18,14 @@
 
 namespace vdbtet {
 
+/// The tile of the next tier that a tile is in, and its bit there.
+inline openvdb::Coord parentOf(const openvdb::Coord& tile) {
+    return openvdb::Coord(tile.x() >> 3, tile.y() >> 3, tile.z() >> 3);
+}
+inline int bitInParent(const openvdb::Coord& tile) {
+    return TileMask::bit(tile.x() & 7, tile.y() & 7, tile.z() & 7);
+}
+
 /// @brief Three levels of octants in tiles of 8 units an edge, the unit being 8^t cells in tier t.
 /// @details Tier 0 has the tiles of the layout. In tier t a tile holds octants of the levels 3t, 3t+1 and
 /// 3t+2, and is itself one of level 3t+3. It has a record iff that one exists; any other tile owns at most
