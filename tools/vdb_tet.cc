@@ -53,7 +53,11 @@ struct Output final : vdbtet::MeshSink {
         if (file) file->end();
     }
     bool concurrent() const override { return file && file->concurrent(); }
-    bool wantsTriangles() const override { return surface || (file && file->wantsTriangles()); }
+    vdbtet::MeshWants wants() const override {
+        vdbtet::MeshWants wants = file ? file->wants() : vdbtet::MeshWants();
+        wants.triangles = wants.triangles || surface;
+        return wants;
+    }
 
     std::string path, format;
     std::unique_ptr<vdbtet::MeshFile> file;

@@ -30,7 +30,7 @@ public:
     void chunk(const MeshChunk& chunk) override;
     void end() override;
     bool concurrent() const override;
-    bool wantsTriangles() const override;
+    MeshWants wants() const override;
     ChunkMemory memory(std::int64_t firstPoint, std::int64_t firstTet) override;
 
 private:

@@ -39,7 +39,7 @@ public:
     void chunk(const MeshChunk& chunk) override;
     void end() override;
     bool concurrent() const override;
-    bool wantsTriangles() const override;
+    MeshWants wants() const override;
 
     /// @return the format of files like @a path
     /// @throw BadOption as above

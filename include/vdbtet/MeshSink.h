@@ -18,10 +18,10 @@ using Tet = std::array<std::int64_t, 4>;
 /// Three point ids of a boundary face, counter-clockwise from outside.
 using Triangle = std::array<std::int64_t, 3>;
 
-/// Values at the points of a mesh, float32.
-struct PointField {
+/// Values at the points, or in the tets, of a mesh, float32.
+struct MeshField {
     std::string name;
-    int components = 1; ///< numbers a point: 1 or 3
+    int components = 1; ///< numbers a point or tet: 1 or 3
 };
 
 /// The exact size of a mesh, known before the first chunk is made.
@@ -33,8 +33,8 @@ struct MeshTotals {
     openvdb::BBoxd bounds;
     /// True where rounding a coordinate to float32 turns no dihedral angle by more than 0.01 degrees.
     bool float32Suffices = false;
-    /// What comes with the points; empty unless a FieldSampler is between.
-    std::vector<PointField> pointFields;
+    /// What comes with the points and the tets; empty unless a FieldSampler is between.
+    std::vector<MeshField> pointFields, cellFields;
 };
 
 /// A view of consecutive values that someone else owns.
@@ -72,9 +72,20 @@ struct MeshChunk {
     /// With the triangles: the ids of the chunk's points on the surface, ascending. All corners of all
     /// triangles are among those of some chunk.
     ArrayView<std::int64_t> surfacePoints;
-    /// For each of MeshTotals::pointFields the values at the chunk's points, the components of a point side
-    /// by side; valid during the call.
-    std::vector<ArrayView<float>> pointFields;
+    /// For each tet, if the sink wants them: the mean of its corners, world space, and its smallest dihedral
+    /// angle, in degrees; valid during the call.
+    ArrayView<openvdb::Vec3d> centroids;
+    ArrayView<float> minDihedrals;
+    /// For each of MeshTotals::pointFields and cellFields the values at the chunk's points and in its tets,
+    /// the components of one side by side; valid during the call.
+    std::vector<ArrayView<float>> pointFields, cellFields;
+};
+
+/// What else of a chunk a sink wants than its points and tets: nothing of it is made for those who do not.
+struct MeshWants {
+    bool triangles = false; ///< and surfacePoints
+    bool centroids = false;
+    bool minDihedrals = false;
 };
 
 /// Room for the points and tets of a chunk.
@@ -100,8 +111,8 @@ public:
     /// each chunk knows its place in the mesh.
     virtual bool concurrent() const { return false; }
 
-    /// @return true to get the boundary triangles in the chunks, too. Asked once, after begin().
-    virtual bool wantsTriangles() const { return false; }
+    /// @return what the chunks shall have besides points and tets. Asked once, after begin().
+    virtual MeshWants wants() const { return {}; }
 
     /// @brief For a sink that has memory for the whole mesh: where the chunk shall be made that starts with
     /// these.

@@ -26,7 +26,7 @@ public:
     void chunk(const MeshChunk& chunk) override;
     void end() override;
     bool concurrent() const override { return true; }
-    bool wantsTriangles() const override { return true; }
+    MeshWants wants() const override { return {true, false, false}; }
 
 private:
     struct Impl;

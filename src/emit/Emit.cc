@@ -108,7 +108,7 @@ public:
     Emission(const Grading& grading, const Numbering& numbering, Emitters& emitters, MeshSink& sink,
              Interrupt& interrupt)
         : mGrading(grading), mNumbering(numbering), mEmitters(emitters), mSink(sink), mInterrupt(interrupt),
-          mWantsTriangles(sink.wantsTriangles()) {}
+          mWantsTriangles(sink.wants().triangles) {}
 
     void run() {
         Units units(mGrading, mNumbering);

@@ -111,7 +111,7 @@ using Samplable = GridTypes<openvdb::FloatGrid, openvdb::DoubleGrid, openvdb::In
 
 struct FieldSampler::Impl {
     MeshSink& next;
-    std::vector<PointField> fields;
+    std::vector<MeshField> fields;
     std::vector<std::unique_ptr<Sampled>> grids; ///< of the fields
 };
 
@@ -155,7 +155,7 @@ void FieldSampler::chunk(const MeshChunk& chunk) {
 
 void FieldSampler::end() { mImpl->next.end(); }
 bool FieldSampler::concurrent() const { return mImpl->next.concurrent(); }
-bool FieldSampler::wantsTriangles() const { return mImpl->next.wantsTriangles(); }
+MeshWants FieldSampler::wants() const { return mImpl->next.wants(); }
 ChunkMemory FieldSampler::memory(std::int64_t firstPoint, std::int64_t firstTet) {
     return mImpl->next.memory(firstPoint, firstTet);
 }

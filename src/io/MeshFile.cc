@@ -141,7 +141,11 @@ void MeshFile::end() {
 
 bool MeshFile::concurrent() const { return true; }
 
-bool MeshFile::wantsTriangles() const { return mImpl->format && mImpl->format->wantsTriangles(); }
+MeshWants MeshFile::wants() const {
+    MeshWants wants;
+    wants.triangles = mImpl->format && mImpl->format->wantsTriangles();
+    return wants;
+}
 
 const MeshFormat& MeshFile::formatOf(const std::string& path, const std::string& format) {
     return find(path, format).format;

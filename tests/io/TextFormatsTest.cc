@@ -52,7 +52,7 @@ public:
         chunk.firstTet = first;
         chunk.points = {mPoints.data() + 4 * at, 4 * some};
         chunk.tets = {mTets.data() + at, some};
-        if (sink.wantsTriangles()) chunk.triangles = {mTriangles.data() + 4 * at, 4 * some};
+        if (sink.wants().triangles) chunk.triangles = {mTriangles.data() + 4 * at, 4 * some};
         sink.chunk(chunk);
     }
 

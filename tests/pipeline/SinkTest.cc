@@ -259,7 +259,7 @@ TEST_CASE("a sink that wants the boundary gets it with the chunks") {
             mesh.chunk(chunk);
         }
         void end() override { mesh.end(); }
-        bool wantsTriangles() const override { return true; }
+        MeshWants wants() const override { return {true, false, false}; }
 
         MeshTotals totals;
         TetMesh mesh;

@@ -46,7 +46,7 @@ Npz::Npz(const MeshTotals& totals)
     mTets = &mZip.append(layout, "tet_indices.npy", npyHeader('i', idBytes, totals.tets, 4), totals.tets,
                          4 * idBytes);
     mHoldsFields = true;
-    for (const PointField& field : totals.pointFields) {
+    for (const MeshField& field : totals.pointFields) {
         mFields.push_back(&mZip.append(layout, "point_" + fileName(field.name) + ".npy",
                                        npyHeader('f', 4, totals.points, field.components), totals.points,
                                        4 * std::size_t(field.components)));

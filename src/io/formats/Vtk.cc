@@ -74,7 +74,7 @@ Vtk::Vtk(const MeshTotals& totals)
         layout.text("POINT_DATA " + points + "\nFIELD FieldData " +
                     std::to_string(totals.pointFields.size()) + "\n");
     }
-    for (const PointField& field : totals.pointFields) {
+    for (const MeshField& field : totals.pointFields) {
         layout.text(percentName(field.name) + " " + std::to_string(field.components) + " " + points +
                     " float\n");
         mFields.push_back(layout.records(totals.points, 4 * std::size_t(field.components)));

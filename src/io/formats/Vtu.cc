@@ -45,7 +45,7 @@ Vtu::Vtu(const MeshTotals& totals)
                         std::size_t(mInt32Offsets ? 4 : 8)};
     const Block types{"UInt8", "types", "", totals.tets, 1};
     std::vector<Block> fields;
-    for (const PointField& field : totals.pointFields) {
+    for (const MeshField& field : totals.pointFields) {
         fields.push_back({"Float32", xmlName(field.name),
                           " NumberOfComponents=\"" + std::to_string(field.components) + "\"", totals.points,
                           4 * std::size_t(field.components)});
