@@ -49,24 +49,23 @@ void LocalPositions::load(const Vertices& vertices, TileRef tile) {
     for (int local : mMoved) mPosition[local] = homeOf(local);
     mMoved.clear();
     const Neighbours& neighbours = vertices.layout.neighbours[tile];
-    const Destinations& destinations = vertices.destinations;
     for (int slot = 0; slot < 27; ++slot) {
         const TileRef from = neighbours[slot];
-        if (from < 0 || !destinations.any(from)) continue;
+        if (from < 0 || !vertices.anyMoved(from)) continue;
         const int dx = slot / 9 - 1;
         const int shift = PaddedMask::step(8 * dx, 8 * (slot / 3 % 3 - 1), 8 * (slot % 3 - 1));
         const int firstWord = dx < 0 ? 7 : 0, lastWord = dx > 0 ? 0 : 7;
         const TileMask& border = borderOf(slot);
         for (int lattice = 0; lattice < 2; ++lattice) {
-            const TileMask& manifold = vertices.labels.manifold[from][lattice];
-            std::int64_t before = destinations.first[from][lattice] + manifold.rank(firstWord << 6);
+            const TileMask& moved = vertices.moved(from, lattice);
+            std::int64_t before = vertices.firstMove(from, lattice) + moved.rank(firstWord << 6);
             for (int w = firstWord; w <= lastWord; ++w) {
-                const std::uint64_t all = manifold.words[w];
+                const std::uint64_t all = moved.words[w];
                 for (std::uint64_t word = all & border.words[w]; word != 0; word &= word - 1) {
                     const int bit = lowestBit(word);
                     const int local = localIndex(lattice, w << 6 | bit) + shift;
                     mPosition[local] +=
-                        destinations.move(before + countBits(all & ((std::uint64_t(1) << bit) - 1)));
+                        vertices.move(before + countBits(all & ((std::uint64_t(1) << bit) - 1)));
                     mMoved.push_back(local);
                 }
                 before += countBits(all);

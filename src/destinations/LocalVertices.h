@@ -5,6 +5,7 @@
 #include "bcc/Lattice.h"
 #include "bits/PaddedMask.h"
 #include "destinations/Destinations.h"
+#include "destinations/Moves.h"
 #include "field/Field.h"
 #include "labels/Labels.h"
 #include "tiles/Layout.h"
@@ -17,12 +18,28 @@
 
 namespace vdbtet {
 
-/// What the stages up to the destinations made.
+/// What the stages up to the destinations made, and where the vertices are now.
 struct Vertices {
     const Layout& layout;
     const std::vector<TileSigns>& signs;
     const Labels& labels;
     const Destinations& destinations;
+    const Moves* moves = nullptr; ///< in place of the destinations, or null
+
+    /// The vertices of a surface tile that are not at home, and the number of the first one's offset.
+    const TileMask& moved(TileRef tile, int lattice) const {
+        return moves ? moves->moved[tile][lattice] : labels.manifold[tile][lattice];
+    }
+    std::int64_t firstMove(TileRef tile, int lattice) const {
+        return moves ? moves->first[tile][lattice] : destinations.first[tile][lattice];
+    }
+    /// Offset number @a i from home, lattice units.
+    openvdb::Vec3d move(std::int64_t i) const {
+        return moves ? openvdb::Vec3d(moves->offsets[i]) : destinations.move(i);
+    }
+    bool anyMoved(TileRef tile) const {
+        return moves ? moved(tile, bcc::A).any() || moved(tile, bcc::B).any() : destinations.any(tile);
+    }
 };
 
 enum class State : std::uint8_t {
@@ -93,7 +110,7 @@ inline openvdb::Vec3d homeOf(int local) {
     return openvdb::Vec3d(PaddedMask::x(n) + shift, PaddedMask::y(n) + shift, PaddedMask::z(n) + shift);
 }
 
-/// The same vertices, with the moves of any of them looked up when asked for.
+/// The same vertices, with the destinations of any of them looked up when asked for.
 class LocalVertices : public LocalStates {
 public:
     explicit LocalVertices(const Vertices& vertices) : mVertices(vertices) {}
@@ -127,7 +144,7 @@ private:
     const Neighbours* mNeighbours = nullptr;
 };
 
-/// The positions of all of them, for those who look at each many times.
+/// Where all of them are now, for those who look at each many times.
 class LocalPositions {
 public:
     LocalPositions();
@@ -135,7 +152,7 @@ public:
     /// Unpack the surroundings of surface tile @a tile.
     void load(const Vertices& vertices, TileRef tile);
 
-    /// As LocalVertices::position().
+    /// In lattice units, relative to L_A's lowest vertex of the tile.
     const openvdb::Vec3d& operator[](int local) const { return mPosition[local]; }
 
     /// Whether any vertex is not at home.

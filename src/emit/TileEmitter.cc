@@ -163,14 +163,13 @@ void TileEmitter::emitRunTile(const Coord& tile, Output& out) {
 void TileEmitter::emitSurfacePoints(const Coord& tile, TileRef record, TileRef surface, Output& out) {
     for (int lattice = 0; lattice < 2; ++lattice) {
         const TileMask& used = usedIn(record, surface, lattice);
-        const TileMask& manifold = mVertices.labels.manifold[surface][lattice];
-        std::int64_t move = mVertices.destinations.first[surface][lattice];
+        std::int64_t move = mVertices.firstMove(surface, lattice);
         const Vec3d origin(8.0 * tile.x(), 8.0 * tile.y(), 8.0 * tile.z());
         Vec3d* const first = out.points;
         emitPoints(0, tile, lattice, used, false, out);
-        manifold.forEach([&](int n) {
+        mVertices.moved(surface, lattice).forEach([&](int n) {
             const Vec3d home = homeOf(localIndex(lattice, n));
-            const Vec3d to = home + mVertices.destinations.move(move++);
+            const Vec3d to = home + mVertices.move(move++);
             if (used.test(n)) first[used.rank(n)] = mFrame.world(origin + to);
         });
     }

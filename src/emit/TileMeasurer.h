@@ -20,9 +20,13 @@ public:
 
 private:
     void addAngles(const TileTets& tets);
+    /// Where the octahedron of the L_A spine along @a axis has a vertex of number @a vertex that is not at
+    /// home.
+    TileMask moved(const TileTets& tets, int axis, int vertex) const;
 
     const Vertices& mVertices;
     LocalPositions mPositions;
+    std::array<PaddedMask, 2> mMoved; ///< by lattice; where Vertices has Moves
     AngleSum mSum;
 };
 

@@ -129,10 +129,9 @@ private:
     void expandBounds(TileRef tile, bcc::Lattice lattice, const TileMask& moved) {
         const openvdb::Coord& at = mVertices.layout.surfaceTiles[tile];
         const openvdb::Vec3d origin(8.0 * at.x(), 8.0 * at.y(), 8.0 * at.z());
-        const TileMask& manifold = mVertices.labels.manifold[tile][lattice];
-        std::int64_t move = mVertices.destinations.first[tile][lattice];
-        manifold.forEach([&](int n) {
-            const openvdb::Vec3d to = homeOf(localIndex(lattice, n)) + mVertices.destinations.move(move++);
+        std::int64_t move = mVertices.firstMove(tile, lattice);
+        mVertices.moved(tile, lattice).forEach([&](int n) {
+            const openvdb::Vec3d to = homeOf(localIndex(lattice, n)) + mVertices.move(move++);
             if (moved.test(n)) bounds.expand(mFrame.world(origin + to));
         });
     }
