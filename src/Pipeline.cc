@@ -9,6 +9,7 @@
 #include "grading/Grading.h"
 #include "labels/Labels.h"
 #include "numbering/Numbering.h"
+#include "repair/Repair.h"
 #include "tiles/Layout.h"
 
 #include <vdbtet/Errors.h>
@@ -116,13 +117,18 @@ void runPipeline(const Field& field, const Frame& frame, const Options& options,
     if (report.cancelled) return;
     cuts.reset(); // the largest product, and no one reads it again
 
-    const Vertices vertices{layout, signs, labels, destinations};
+    Vertices vertices{layout, signs, labels, destinations};
     const Flips flips = stage("flips", [&] { return chooseFlips(vertices, options.tiger, interrupt); });
     if (report.cancelled) return;
     report.activeFlips = flips.active;
     report.extraFlips = flips.extra;
     report.lastResortFlips = flips.lastResort;
     report.conflicts = flips.conflicts;
+    const Repair repair =
+        stage("repair", [&] { return repairBoundary(vertices, flips, options.boundary, interrupt); });
+    if (report.cancelled) return;
+    report.boundary = repair.counts;
+    if (!repair.changes.tiles.empty()) vertices.changes = &repair.changes;
     const int top = topLevel(options, frame.spacing, layout);
     const Grading grading =
         stage("grading", [&] { return gradeInterior(layout, signs, labels, top, interrupt); });

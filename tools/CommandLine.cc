@@ -30,6 +30,10 @@ bool isSameFile(const std::string& a, const std::string& b) {
 const std::map<std::string, vdbtet::Inside> kSides = {
     {"below", vdbtet::Inside::Below}, {"above", vdbtet::Inside::Above}, {"auto", vdbtet::Inside::Automatic}};
 
+const std::map<std::string, vdbtet::Boundary> kBoundaries = {{"manifold", vdbtet::Boundary::Manifold},
+                                                             {"fill", vdbtet::Boundary::Fill},
+                                                             {"raw", vdbtet::Boundary::Raw}};
+
 /// @return what is wrong with the text, or nothing
 std::string isPositive(const std::string& text) {
     char* end = nullptr;
@@ -91,6 +95,12 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
         ->check(positive)
         ->type_name("VOXELS")
         ->excludes(spacing);
+    app.add_option_function<std::string>(
+           "--boundary", [&options](const std::string& mode) { options.boundary = kBoundaries.at(mode); },
+           "Where the shape is finer than the lattice: mend the boundary until it is a manifold, only fill "
+           "gaps, or leave it. Default: manifold")
+        ->check(CLI::IsMember(kBoundaries).description(""))
+        ->type_name("manifold|fill|raw");
     auto* grade = app.add_flag("-g,--grade", options.grade,
                                "Let the tets grow towards the inside, up to 2 x a layer; the surface stays "
                                "as it is");

@@ -45,6 +45,11 @@ std::string asText(const CommandLine& line, const Summary& summary) {
                       ? "none"
                       : fmt::format("{:.2f} to {:.2f} degrees; {}", r.angles.min, r.angles.max, bound));
     add("dropped", fmt::format("{} ambiguous tets", r.ambiguous));
+    if (r.boundary.found > 0) {
+        add("boundary", fmt::format("not a surface at {} vertices: {} tets filled, {} taken out, {} points doubled{}",
+                                    r.boundary.found, r.boundary.filled, r.boundary.peeled, r.boundary.split,
+                                    r.boundary.left > 0 ? fmt::format("; {} left", r.boundary.left) : ""));
+    }
     add("flips", fmt::format("{} active, {} extra, {} last resort; {} conflicts", r.activeFlips, r.extraFlips,
                              r.lastResortFlips, r.conflicts));
     std::string stages;

@@ -25,6 +25,14 @@ enum class Inside {
     Above      ///< values above the isovalue, as in a density
 };
 
+/// What is done where the lattice does not resolve the shape, so that the boundary of the mesh would have
+/// edges of four triangles, or points where parts of it merely touch.
+enum class Boundary {
+    Manifold, ///< gaps are filled, tets taken out, and points doubled until the boundary is a surface
+    Fill,     ///< gaps are filled with tets within the angle bound; no point is doubled
+    Raw       ///< nothing
+};
+
 struct Options {
     /// The surface is where the grid equals this. Default: 0 for a level set, 0.5 for a fog volume; for any
     /// other class 0 if the background is positive, else 0.5.
@@ -39,6 +47,9 @@ struct Options {
     /// TIGER version: 2 flips the worst-case octahedra (paper, section 6), 1 does not.
     int tiger = 2;
 
+    /// Nothing changes where the boundary is a surface anyway.
+    Boundary boundary = Boundary::Manifold;
+
     /// Coarsen the inside away from the surface: octree levels, each twice as large as the last, as fast as
     /// balance allows. The boundary stays the same, bit for bit; the number of tets grows with the surface
     /// instead of the volume. Tets between levels have angles in [45, 120] degrees.
@@ -50,6 +61,15 @@ struct Options {
     /// Refuse, before the work, a surface that crosses more lattice tiles (8 x 8 x 8 cells) than this. A tile
     /// takes about 1.5 kB while the mesh is made.
     std::int64_t maxSurfaceTiles = std::int64_t(1) << 22;
+};
+
+/// What was wrong with the boundary, and what was done about it.
+struct BoundaryCounts {
+    std::int64_t found = 0;  ///< vertices whose boundary triangles were not one closed fan
+    std::int64_t filled = 0; ///< tets put in
+    std::int64_t peeled = 0; ///< tets taken out
+    std::int64_t split = 0;  ///< points added, by doubling
+    std::int64_t left = 0;   ///< of the vertices, those that are still bad
 };
 
 /// What a run did, and what it was done on.
@@ -70,6 +90,7 @@ struct Report {
     /// the inside was graded.
     std::vector<std::int64_t> tetsOfLevel;
     std::int64_t boundaryTriangles = 0; ///< faces of exactly one tet
+    BoundaryCounts boundary;
     std::int64_t ambiguous = 0;         ///< tets of four manifold vertices; dropped (paper, section 2.5)
     std::int64_t conflicts = 0;   ///< octahedra of Algorithm 5 with a fourth manifold vertex (section 6.2.1)
     std::int64_t activeFlips = 0; ///< long edges flipped by Algorithm 4

@@ -84,6 +84,9 @@ constexpr int kSliceTets[3][4][4] = {
     {{5, 2, 3, 1}, {5, 3, 4, 1}, {5, 3, 2, 0}, {5, 4, 3, 0}},
 };
 
+/// The faces of a positive tet opposite to each of its vertices, counter-clockwise from outside.
+constexpr int kTetFaces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+
 /// A long edge of the ring: its lower end as a number of the octahedron's vertices, and its axis as an offset
 /// to the spine's.
 struct RingEdge {

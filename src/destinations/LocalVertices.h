@@ -8,6 +8,7 @@
 #include "destinations/Moves.h"
 #include "field/Field.h"
 #include "labels/Labels.h"
+#include "destinations/Changes.h"
 #include "tiles/Layout.h"
 
 #include <openvdb/Types.h>
@@ -25,6 +26,10 @@ struct Vertices {
     const Labels& labels;
     const Destinations& destinations;
     const Moves* moves = nullptr; ///< in place of the destinations, or null
+    const Changes* changes = nullptr; ///< of the tets, or null
+
+    /// @return what of a tile differs from what labels and flips say, or null
+    const TileChanges* changesOf(TileRef tile) const { return changes ? changes->of(tile) : nullptr; }
 
     /// The vertices of a surface tile that are not at home, and the number of the first one's offset.
     const TileMask& moved(TileRef tile, int lattice) const {

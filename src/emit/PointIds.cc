@@ -102,6 +102,13 @@ std::int64_t PointIds::findBelow(int tier, Coord tile, int n) const {
     }
 }
 
+std::int64_t PointIds::copyOf(int local, int copy) const {
+    const int n = bitOf(local);
+    const Ids ids = idsAround(neighbourSlot(tileStep(PaddedMask::x(n)), tileStep(PaddedMask::y(n)),
+                                            tileStep(PaddedMask::z(n))));
+    return ids.first[bcc::B] + ids.used[bcc::B]->count() + copy;
+}
+
 void PointIds::findAll() {
     for (int dx = -1; dx <= 1; ++dx) {
         for (int dy = -1; dy <= 1; ++dy) {

@@ -23,6 +23,9 @@ public:
     /// Their ids, by local number; those of unused vertices are arbitrary.
     const std::int64_t* local() const { return mIds.data(); }
 
+    /// The id of point number @a copy of TileChanges::copies, of the tile around that has vertex @a local.
+    std::int64_t copyOf(int local, int copy) const;
+
     /// The id of a vertex of L_A that is not beyond an upper neighbour, in units.
     std::int64_t at(int point) const {
         const Upper& upper = mUpper[upperSlot(point)];

@@ -4,6 +4,8 @@
 
 #include "simd/Stream.h"
 
+#include <algorithm>
+
 namespace vdbtet {
 
 using openvdb::Coord;
@@ -50,12 +52,9 @@ public:
     template <int kAxis>
     void writeFound(const TileTets& found) {
         const TileMask& flipped = found.flippedSpines(kAxis);
-        TileMask some = flipped, whole = TileMask::filled(true);
-        for (int number = 0; number < 4; ++number) {
-            some |= found.latticeTets(kAxis, number);
-            whole &= found.latticeTets(kAxis, number);
-        }
-        some.forEach([&](int n) {
+        TileMask whole = TileMask::filled(true);
+        for (int number = 0; number < 4; ++number) whole &= found.latticeTets(kAxis, number);
+        found.someTets(kAxis).forEach([&](int n) {
             const int lower = localIndex(bcc::A, n);
             if (whole.test(n)) {
                 writeOctahedron<kAxis>(lower);
@@ -118,13 +117,14 @@ Output TileEmitter::emit(int tier, std::int64_t span, std::int64_t offset, Outpu
     const TileRef surface = mGrading.surfaceOf(tier, s.tile);
     const bool hasCells = load(tier, tile, surface, around);
     if (surface >= 0) {
+        out.boundary ? findBoundary(surface) : mTets.change(mVertices.changesOf(surface));
         mMeasurer.measure(surface, mTets);
         emitSurfacePoints(tile, s.tile, surface, out);
     } else {
         emitPoints(tier, tile, bcc::A,
                    s.tile < 0 ? mNumbering.usedInRun[bcc::A] : mNumbering.usedA[tier][s.tile], false, out);
     }
-    if (hasCells) emitCells(out);
+    if (hasCells) emitCells(surface, out);
     if (surface >= 0 && out.boundary) emitBoundary(s.tile, surface, *out.boundary);
     if (mGrading.top > 0) emitOctants(out);
     return out;
@@ -136,6 +136,7 @@ void TileEmitter::measure(int tier, std::int64_t span) {
     if (surface < 0) return;
     const bool graded = mGrading.top > 0; // or else nobody asks what is around
     load(tier, s.first, surface, graded ? mGrading.tiers[tier].spans.around(s.first) : SpansAround{});
+    mTets.change(mVertices.changesOf(surface));
     mMeasurer.measure(surface, mTets);
 }
 
@@ -172,6 +173,15 @@ void TileEmitter::emitSurfacePoints(const Coord& tile, TileRef record, TileRef s
             const Vec3d to = home + mVertices.move(move++);
             if (used.test(n)) first[used.rank(n)] = mFrame.world(origin + to);
         });
+    }
+    const TileChanges* changes = mVertices.changesOf(surface);
+    if (!changes) return;
+    const Vec3d* const points = out.points - usedIn(record, surface, bcc::A).count() -
+                                usedIn(record, surface, bcc::B).count();
+    for (const std::uint16_t copy : changes->copies) {
+        const int lattice = copy >> 9, n = copy & 511;
+        const TileMask& used = usedIn(record, surface, lattice);
+        *out.points++ = points[(lattice == bcc::B ? usedIn(record, surface, bcc::A).count() : 0) + used.rank(n)];
     }
 }
 
@@ -214,29 +224,78 @@ void TileEmitter::emitRow(int tier, const Coord& tile, int lattice, int row, uns
     }
 }
 
+void TileEmitter::findBoundary(TileRef surface) {
+    mFaces.clear();
+    if (mVertices.changesOf(surface) || mStates.manifoldMask(bcc::A).any() ||
+        mStates.manifoldMask(bcc::B).any())
+        findChangedFaces(mVertices, surface, mTets, mStates, mFaces);
+}
+
 void TileEmitter::emitBoundary(TileRef record, TileRef surface, ChunkBoundary& boundary) {
     const std::int64_t* ids = mIds.local();
+    const TileChanges* changes = mVertices.changesOf(surface);
     for (int lattice = 0; lattice < 2; ++lattice) {
-        const TileMask& used = usedIn(record, surface, lattice);
-        (used & mVertices.labels.manifold[surface][lattice]).forEach([&](int n) {
+        TileMask onSurface = mVertices.labels.manifold[surface][lattice];
+        if (changes) onSurface = (onSurface | changes->exposed[lattice]) & ~changes->buried[lattice];
+        (usedIn(record, surface, lattice) & onSurface).forEach([&](int n) {
             boundary.points.push_back(ids[localIndex(lattice, n)]);
         });
     }
-    findBoundaryFaces(mVertices, surface, mTets, mStates, mFaces);
+    const std::size_t first = boundary.triangles.size();
     for (const LocalFace& face : mFaces)
         boundary.triangles.push_back({ids[face[0]], ids[face[1]], ids[face[2]]});
+    if (!changes) return;
+    for (std::size_t i = 0; i < changes->copies.size(); ++i) {
+        const int vertex = localIndex(changes->copies[i] >> 9, changes->copies[i] & 511);
+        boundary.points.push_back(mIds.copyOf(vertex, int(i)));
+    }
+    for (std::size_t i = 0; i < mFaces.size(); ++i) {
+        LocalFace face = mFaces[i];
+        std::sort(face.begin(), face.end());
+        const auto copies = std::equal_range(changes->faceCopies.begin(), changes->faceCopies.end(),
+                                             TileChanges::FaceCopy{face, {}},
+                                             [](const auto& a, const auto& b) { return a.face < b.face; });
+        for (auto copy = copies.first; copy != copies.second; ++copy) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (mFaces[i][k] == copy->copy.vertex)
+                    boundary.triangles[first + i][k] = mIds.copyOf(copy->copy.vertex, copy->copy.number);
+            }
+        }
+    }
 }
 
-void TileEmitter::emitCells(Output& out) {
+void TileEmitter::emitCells(TileRef surface, Output& out) {
     mIds.findAll();
     const std::int64_t* ids = mIds.local();
-    out.tets = out.streaming ? writeSurfaceTile<Streaming>(mTets, ids, out.tets)
-                             : writeSurfaceTile<Cached>(mTets, ids, out.tets);
+    const TileChanges* changes = mVertices.changesOf(surface);
+    const bool hasCopies = changes && !changes->tetCopies.empty();
+    Tet* const first = out.tets;
+    out.tets = out.streaming && !hasCopies ? writeSurfaceTile<Streaming>(mTets, ids, out.tets)
+                                           : writeSurfaceTile<Cached>(mTets, ids, out.tets);
+    if (hasCopies) putCopies(*changes, first);
     if (mGrading.top == 0) return;
     forEachTetOfFringe(mOctants, mStates.interiorMask(bcc::B).core(),
                        [&](TetKind, int a, int b, int c, int d) {
                            *out.tets++ = {ids[localIndex(bcc::B, a)], mIds.at(b), mIds.at(c), mIds.at(d)};
                        });
+}
+
+void TileEmitter::putCopies(const TileChanges& changes, Tet* tets) const {
+    const auto lower = [](const TileChanges::TetCopy& a, const TileChanges::TetCopy& b) {
+        return a.tet < b.tet;
+    };
+    mTets.forEachCode([&](TetCode code) {
+        Tet& tet = *tets++;
+        const auto copies = std::equal_range(changes.tetCopies.begin(), changes.tetCopies.end(),
+                                             TileChanges::TetCopy{code, {}}, lower);
+        for (auto copy = copies.first; copy != copies.second; ++copy) {
+            const LocalTet corners = mTets.tetOf(code);
+            for (int i = 0; i < 4; ++i) {
+                if (corners.vertex(i) == copy->copy.vertex)
+                    tet[std::size_t(i)] = mIds.copyOf(copy->copy.vertex, copy->copy.number);
+            }
+        }
+    });
 }
 
 void TileEmitter::emitOctants(Output& out) {

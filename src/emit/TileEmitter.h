@@ -62,7 +62,11 @@ private:
                     Output& out);
     void emitRow(int tier, const openvdb::Coord& tile, int lattice, int row, unsigned used, bool streaming,
                  openvdb::Vec3d* points) const;
-    void emitCells(Output& out);
+    /// Find the boundary faces, and go to the tile's tets as they are.
+    void findBoundary(TileRef surface);
+    void emitCells(TileRef surface, Output& out);
+    /// Put the copies of vertices into the tile's tets.
+    void putCopies(const TileChanges& changes, Tet* tets) const;
     void emitBoundary(TileRef record, TileRef surface, ChunkBoundary& boundary);
     const TileMask& usedIn(TileRef record, TileRef surface, int lattice) const {
         return lattice == bcc::A ? mNumbering.usedA[0][record] : mNumbering.usedB[surface];

@@ -88,22 +88,29 @@ private:
         mStates.load(mVertices, tile);
         if (graded) mStates.keepCells(mOctants.exists(0));
         mTets.load(tile, mStates);
-        ambiguous += mTets.ambiguous();
-        Counts counts{mTets.tets(), 0};
-        if (mStates.manifoldMask(bcc::A).any() || mStates.manifoldMask(bcc::B).any()) {
-            findBoundaryFaces(mVertices, tile, mTets, mStates, mFaces);
+        Counts counts;
+        const TileChanges* changes = mVertices.changesOf(tile);
+        if (changes || mStates.manifoldMask(bcc::A).any() || mStates.manifoldMask(bcc::B).any()) {
+            findChangedFaces(mVertices, tile, mTets, mStates, mFaces);
             counts.triangles = std::int64_t(mFaces.size());
         }
+        counts.tets = mTets.tets();
+        ambiguous += mTets.ambiguous();
         for (bcc::Lattice lattice : {bcc::A, bcc::B}) {
             used[lattice] = mStates.interiorMask(lattice).core();
             if (graded && lattice == bcc::A) used[lattice] &= mOctants.vertices();
             const TileMask& manifold = mVertices.labels.manifold[tile][lattice];
-            if (!manifold.any()) continue;
-            const TileMask moved =
-                manifold & nextToInterior(mStates.interiorMask(lattice),
-                                          mStates.interiorMask(bcc::other(lattice)), lattice);
-            used[lattice] |= moved;
-            expandBounds(tile, lattice, moved);
+            TileMask outer;
+            if (manifold.any()) {
+                outer = manifold & nextToInterior(mStates.interiorMask(lattice),
+                                                  mStates.interiorMask(bcc::other(lattice)), lattice);
+            }
+            used[lattice] |= outer;
+            if (changes) {
+                used[lattice] = (used[lattice] | changes->used[lattice]) & ~changes->unused[lattice];
+                outer = used[lattice] & (manifold | changes->exposed[lattice]);
+            }
+            expandBounds(tile, lattice, outer);
         }
         if (graded) {
             forEachTetOfFringe(mOctants, mStates.interiorMask(bcc::B).core(),
@@ -125,15 +132,18 @@ private:
         return count;
     }
 
-    /// The mesh is bounded by manifold vertices alone, and its points lie in their convex hull.
-    void expandBounds(TileRef tile, bcc::Lattice lattice, const TileMask& moved) {
+    /// All points lie in the convex hull of the outer ones.
+    void expandBounds(TileRef tile, bcc::Lattice lattice, const TileMask& outer) {
         const openvdb::Coord& at = mVertices.layout.surfaceTiles[tile];
         const openvdb::Vec3d origin(8.0 * at.x(), 8.0 * at.y(), 8.0 * at.z());
+        const TileMask& moved = mVertices.moved(tile, lattice);
         std::int64_t move = mVertices.firstMove(tile, lattice);
-        mVertices.moved(tile, lattice).forEach([&](int n) {
+        moved.forEach([&](int n) {
             const openvdb::Vec3d to = homeOf(localIndex(lattice, n)) + mVertices.move(move++);
-            if (moved.test(n)) bounds.expand(mFrame.world(origin + to));
+            if (outer.test(n)) bounds.expand(mFrame.world(origin + to));
         });
+        (outer & ~moved).forEach(
+            [&](int n) { bounds.expand(mFrame.world(origin + homeOf(localIndex(lattice, n)))); });
     }
 
     const Vertices& mVertices;
@@ -193,6 +203,8 @@ Numbering numberMesh(const Vertices& vertices, const Flips& flips, const Grading
             } else {
                 const TileRef surface = grading.surfaceOf(tier, span.tile);
                 points = usedA[span.tile].count() + (surface >= 0 ? numbering.usedB[surface].count() : 0);
+                if (const TileChanges* changes = vertices.changesOf(surface))
+                    points += std::int64_t(changes->copies.size());
             }
             numbering.firstPoint.push_back(numbering.points() + points);
             numbering.firstTet.push_back(numbering.tets() + counts[s].tets);

@@ -2,12 +2,12 @@
 /// By masks where the octahedron beyond is not flipped, else one face at a time.
 #include "tets/BoundaryFaces.h"
 
+#include <algorithm>
+#include <set>
+
 namespace vdbtet {
 
 namespace {
-
-/// The faces of a positive tet opposite to each of its vertices, counter-clockwise from outside.
-constexpr int kFaces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 /// A vertex in doubled coordinates: L_A even, L_B odd.
 struct Doubled {
@@ -151,7 +151,7 @@ void findBoundaryFaces(const Vertices& vertices, TileRef tile, const TileTets& t
                     const LocalOctahedron octahedron = localOctahedron(bcc::A, axis, localIndex(bcc::A, n));
                     if (faces.isBoundary({octahedron, bcc::A, bcc::S, number})) boundary.set(n);
                 });
-                const auto& face = kFaces[apex];
+                const auto& face = bcc::kTetFaces[apex];
                 boundary.forEach([&](int n) {
                     const int base = localIndex(bcc::A, n);
                     found.push_back({base + o[tet[face[0]]], base + o[tet[face[1]]], base + o[tet[face[2]]]});
@@ -169,13 +169,31 @@ void findBoundaryFaces(const Vertices& vertices, TileRef tile, const TileTets& t
             }
         }
         if (manifold != 3 || !faces.isBoundary(tet)) return;
-        const auto& face = kFaces[apex];
+        const auto& face = bcc::kTetFaces[apex];
         found.push_back({tet.vertex(face[0]), tet.vertex(face[1]), tet.vertex(face[2])});
     };
     for (int axis = 0; axis < 3; ++axis) {
         tets.flippedSpines(axis).forEach([&](int n) { tets.forEachTetOf(axis, n, addFlipped); });
     }
     tets.forEachTetOfB(addFlipped);
+}
+
+void findChangedFaces(const Vertices& vertices, TileRef tile, TileTets& tets, const LocalStates& states,
+                      std::vector<LocalFace>& found) {
+    findBoundaryFaces(vertices, tile, tets, states, found);
+    const TileChanges* changes = vertices.changesOf(tile);
+    tets.change(changes);
+    if (!changes) return;
+    const auto ascending = [](LocalFace face) {
+        std::sort(face.begin(), face.end());
+        return face;
+    };
+    std::set<LocalFace> gone;
+    for (const LocalFace& face : changes->gone) gone.insert(ascending(face));
+    found.erase(std::remove_if(found.begin(), found.end(),
+                               [&](const LocalFace& face) { return gone.count(ascending(face)) > 0; }),
+                found.end());
+    found.insert(found.end(), changes->fresh.begin(), changes->fresh.end());
 }
 
 } // namespace vdbtet

@@ -42,6 +42,25 @@ std::array<std::array<Stars::Kin, 24>, 2> Stars::makeKin() {
     return all;
 }
 
+namespace {
+
+/// The number in kRoles of each vertex of an octahedron, by the spine's lattice and axis.
+using RoleNumbers = std::array<std::array<std::array<int, 6>, 3>, 2>;
+constexpr RoleNumbers roleNumbers() {
+    RoleNumbers numbers{};
+    int next[2] = {0, 0};
+    for (std::size_t spine = 0; spine < 2; ++spine) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            for (std::size_t i = 0; i < 6; ++i)
+                numbers[spine][axis][i] = next[bcc::kOctahedra[spine][axis][i].lattice]++;
+        }
+    }
+    return numbers;
+}
+constexpr RoleNumbers kRoleOf = roleNumbers();
+
+} // namespace
+
 std::array<std::array<Stars::Role, 18>, 2> Stars::makeRoles() {
     std::array<std::array<Role, 18>, 2> all{};
     for (const bcc::Lattice lattice : {bcc::A, bcc::B}) {
@@ -59,12 +78,41 @@ std::array<std::array<Stars::Role, 18>, 2> Stars::makeRoles() {
     return all;
 }
 
-void Stars::load(const Neighbours& neighbours, const LocalStates& states) {
+void Stars::load(TileRef tile, const LocalStates& states) {
+    const Neighbours& neighbours = mVertices.layout.neighbours[tile];
     mStates = &states;
     mLocalFlips.load(mFlips, neighbours);
-    mAnyFlips = false;
-    for (const bcc::Lattice lattice : {bcc::A, bcc::B}) {
-        for (int axis = 0; axis < 3; ++axis) mAnyFlips = mAnyFlips || mLocalFlips.mask(lattice, axis).any();
+    mChanged.clear();
+    for (int slot = 0; slot < 27; ++slot) {
+        const TileChanges* changes = mVertices.changesOf(neighbours[slot]);
+        if (!changes) continue;
+        const int shift = PaddedMask::step(8 * (slot / 9 - 1), 8 * (slot / 3 % 3 - 1), 8 * (slot % 3 - 1));
+        for (const TetCode code : changes->tets) {
+            if (!borderOf(slot).test(tetBit(code))) continue;
+            const auto lattice = bcc::Lattice(tetLattice(code));
+            mChanged.push_back(keyOf({lattice, tetAxis(code), tetNumber(code),
+                                      localIndex(lattice, tetBit(code)) + shift}));
+        }
+    }
+    std::sort(mChanged.begin(), mChanged.end());
+    for (const int v : mAtFlips) mSlices[std::size_t(v)] = 0;
+    mAtFlips.clear();
+    for (const bcc::Lattice spine : {bcc::A, bcc::B}) {
+        for (int axis = 0; axis < 3; ++axis) {
+            mLocalFlips.mask(spine, axis).forEach([&](int lower) {
+                const auto slice =
+                    std::uint64_t(mLocalFlips.slice(axis, spine * kLocalLattice + lower));
+                for (std::size_t i = 0; i < 6; ++i) {
+                    const bcc::Vertex& at = bcc::kOctahedra[spine][axis][i];
+                    const int x = PaddedMask::x(lower) + at.x, y = PaddedMask::y(lower) + at.y,
+                              z = PaddedMask::z(lower) + at.z;
+                    if (((x | y | z) & ~7) != 0) continue;
+                    const int v = localIndex(at.lattice, x, y, z);
+                    mSlices[std::size_t(v)] |= slice << (2 * kRoleOf[spine][std::size_t(axis)][i]);
+                    mAtFlips.push_back(v);
+                }
+            });
+        }
     }
 }
 

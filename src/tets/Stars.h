@@ -4,6 +4,7 @@
 
 #include "tets/TileTets.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -22,6 +23,7 @@ struct TetName {
 enum class Presence : std::uint8_t {
     Outside,   ///< a vertex of it is outside
     Ambiguous, ///< all its vertices are manifold: dropped
+    Removed,   ///< by Changes
     InMesh
 };
 
@@ -32,23 +34,40 @@ struct StarTet {
     Presence presence;
 };
 
+/// The face of a positive tet without its vertex @a v, from outside the tet.
+inline LocalFace faceOpposite(const std::array<int, 4>& tet, int v) {
+    std::size_t at = 0;
+    while (tet[at] != v) ++at;
+    const auto& face = bcc::kTetFaces[at];
+    return {tet[std::size_t(face[0])], tet[std::size_t(face[1])], tet[std::size_t(face[2])]};
+}
+
 /// @brief The stars of a surface tile's own vertices.
 /// @details All tets at a vertex, in the mesh or not, fill the space around it: 24 where nothing is flipped.
 class Stars {
 public:
-    explicit Stars(const Flips& flips) : mFlips(flips) {}
+    Stars(const Vertices& vertices, const Flips& flips) : mVertices(vertices), mFlips(flips) {}
 
     /// Go to a surface tile, the states of whose vertices are @a states, until the next call.
-    void load(const Neighbours& neighbours, const LocalStates& states);
+    void load(TileRef tile, const LocalStates& states);
 
     /// Call @a visit(StarTet) for each tet at vertex @a v of the tile, a local number; always in one order.
     template <typename Visit>
     void forEachTet(int v, Visit&& visit) const {
         const bcc::Lattice lattice = latticeOf(v);
         for (const Kin& kin : kKin[lattice]) visitLattice(v, kin, visit);
-        if (!mAnyFlips) return;
+        if (slicesAt(v) == 0) return;
         for (const Role& role : kRoles[lattice]) visitFlipped(v, role, visit);
     }
+
+    /// Call @a visit(vertices) for the tets that a vertex has where nothing is flipped, in the same order.
+    template <typename Visit>
+    static void forEachLatticeTet(int v, Visit&& visit) {
+        for (const Kin& kin : kKin[latticeOf(v)]) visit(kin.at(v));
+    }
+
+    /// @return how the 18 octahedra of a vertex of the tile are cut, 2 bits each: 0 where none is flipped.
+    std::uint64_t slicesAt(int v) const { return mSlices[std::size_t(v)]; }
 
 private:
     /// A tet of slice S at a vertex: of the octahedron of a spine there, and of that of the ring edge.
@@ -57,6 +76,10 @@ private:
         int spineAxis, ringAxis;
         std::array<int, 4> vertices; ///< steps
         int number;                  ///< in the octahedron that is L_A's
+
+        std::array<int, 4> at(int v) const {
+            return {v + vertices[0], v + vertices[1], v + vertices[2], v + vertices[3]};
+        }
     };
     /// An octahedron that a vertex is in.
     struct Role {
@@ -70,15 +93,20 @@ private:
     static std::array<std::array<Kin, 24>, 2> makeKin();
     static std::array<std::array<Role, 18>, 2> makeRoles();
 
-    Presence presenceOf(const std::array<int, 4>& vertices) const {
+    Presence presenceOf(const StarTet& tet) const {
         int manifold = 0, interior = 0;
-        for (const int v : vertices) {
+        for (const int v : tet.vertices) {
             manifold += mStates->manifold(v);
             interior += mStates->interior(v);
         }
-        return manifold == 4              ? Presence::Ambiguous
-               : manifold + interior == 4 ? Presence::InMesh
-                                          : Presence::Outside;
+        if (manifold + interior < 4) return Presence::Outside;
+        const bool isChanged =
+            !mChanged.empty() && std::binary_search(mChanged.begin(), mChanged.end(), keyOf(tet.name));
+        if (isChanged) return manifold == 4 ? Presence::InMesh : Presence::Removed;
+        return manifold == 4 ? Presence::Ambiguous : Presence::InMesh;
+    }
+    static int keyOf(const TetName& name) {
+        return ((name.lattice * 3 + name.axis) * 4 + name.number) * kLocalVertices + name.lower;
     }
     bool flipped(bcc::Lattice lattice, int axis, int lower) const {
         return mLocalFlips.mask(lattice, axis).test(bitOf(lower));
@@ -90,10 +118,10 @@ private:
         if (flipped(lattice, kin.spineAxis, v + kin.spine)) return;
         if (flipped(bcc::other(lattice), kin.ringAxis, v + kin.ring)) return;
         StarTet tet;
-        for (int i = 0; i < 4; ++i) tet.vertices[i] = v + kin.vertices[i];
+        tet.vertices = kin.at(v);
         tet.name = lattice == bcc::A ? TetName{bcc::A, kin.spineAxis, kin.number, v + kin.spine}
                                      : TetName{bcc::A, kin.ringAxis, kin.number, v + kin.ring};
-        tet.presence = presenceOf(tet.vertices);
+        tet.presence = presenceOf(tet);
         visit(tet);
     }
 
@@ -112,15 +140,18 @@ private:
             }
             if (!atV) continue;
             tet.name = {role.lattice, role.axis, number, lower};
-            tet.presence = presenceOf(tet.vertices);
+            tet.presence = presenceOf(tet);
             visit(tet);
         }
     }
 
+    const Vertices& mVertices;
     const Flips& mFlips;
     const LocalStates* mStates = nullptr;
     LocalFlips mLocalFlips;
-    bool mAnyFlips = false;
+    std::array<std::uint64_t, kLocalVertices> mSlices{}; ///< slicesAt()
+    std::vector<int> mAtFlips;                           ///< the vertices where it is not 0, some twice
+    std::vector<int> mChanged; ///< keyOf() of the tets in and around the tile that are changed, ascending
 };
 
 } // namespace vdbtet

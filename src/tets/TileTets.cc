@@ -28,6 +28,7 @@ void LocalFlips::load(const Flips& flips, const Neighbours& neighbours) {
 void TileTets::load(TileRef tile, const LocalStates& states) {
     mTile = tile;
     mStates = &states;
+    mChanges = nullptr;
     mTets = mAmbiguous = 0;
     if (tile == kInside) {
         mLocalFlips.clear();
@@ -46,6 +47,28 @@ void TileTets::load(TileRef tile, const LocalStates& states) {
     forEachFlipOfB([&](const Flip& flip) {
         mAmbiguous += visitFlipped(bcc::B, flip.axis, flip.slice, flip.vertex, count);
     });
+}
+
+void TileTets::change(const TileChanges* changes) {
+    mChanges = changes;
+    if (!changes) return;
+    for (const TetCode code : changes->tets) {
+        const LocalTet tet = tetOf(code);
+        bool filled = true;
+        for (int i = 0; i < 4; ++i) filled = filled && mStates->manifold(tet.vertex(i));
+        mTets += filled ? 1 : -1;
+        mAmbiguous -= filled;
+        if (tet.slice != bcc::S) continue; // visitFlipped() looks for itself
+        TileMask& tets = mLattice[tetAxis(code)][tet.number];
+        filled ? tets.set(tetBit(code)) : tets.reset(tetBit(code));
+    }
+}
+
+LocalTet TileTets::tetOf(TetCode code) const {
+    const auto lattice = bcc::Lattice(tetLattice(code));
+    const int lower = localIndex(lattice, tetBit(code));
+    return {localOctahedron(lattice, tetAxis(code), lower), lattice, mLocalFlips.slice(tetAxis(code), lower),
+            tetNumber(code)};
 }
 
 void TileTets::findLatticeTets(int axis) {

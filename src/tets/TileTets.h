@@ -8,6 +8,7 @@
 #include "destinations/LocalVertices.h"
 #include "flips/Flips.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace vdbtet {
@@ -54,6 +55,9 @@ public:
     /// far from any, kInside, of which only some cells may exist.
     void load(TileRef tile, const LocalStates& states);
 
+    /// Put in and take out what the tile's changes say; null for none.
+    void change(const TileChanges* changes);
+
     std::int64_t tets() const { return mTets; }
     /// The tets of four manifold vertices, which are not in the mesh.
     std::int64_t ambiguous() const { return mAmbiguous; }
@@ -67,6 +71,29 @@ public:
 
     /// Where the octahedron of the L_A spine along @a axis has a manifold vertex of number @a vertex.
     const TileMask& manifold(int axis, int vertex) const { return mManifold[axis][vertex]; }
+
+    /// Call @a visit(TetCode) for each tet, in the order in which they are written.
+    template <typename Visit>
+    void forEachCode(Visit&& visit) const {
+        const auto visitTet = [&](const LocalTet& tet) { visit(codeOf(tet)); };
+        for (int axis = 0; axis < 3; ++axis) {
+            someTets(axis).forEach([&](int n) {
+                if (mFlippedA[axis].test(n)) return forEachTetOf(axis, n, visitTet);
+                for (int number = 0; number < 4; ++number) {
+                    if (mLattice[axis][number].test(n)) visit(tetCode(bcc::A, axis, number, n));
+                }
+            });
+        }
+        forEachTetOfB(visitTet);
+    }
+
+    /// The tet of that code, which the tile owns.
+    LocalTet tetOf(TetCode code) const;
+
+    /// The L_A spines along @a axis whose octahedra may have tets in the mesh.
+    TileMask someTets(int axis) const {
+        return mFlippedA[axis] | mLattice[axis][0] | mLattice[axis][1] | mLattice[axis][2] | mLattice[axis][3];
+    }
 
     /// Call @a visit(LocalTet) for each tet of a flipped octahedron of the L_A spine from @a n along @a axis.
     template <typename Visit>
@@ -92,6 +119,19 @@ private:
         });
     }
 
+    static TetCode codeOf(const LocalTet& tet) {
+        const int n = bitOf(tet.octahedron[0]), axis = axisOf(tet);
+        return tetCode(tet.lattice, axis, tet.number,
+                       TileMask::bit(PaddedMask::x(n), PaddedMask::y(n), PaddedMask::z(n)));
+    }
+    static int axisOf(const LocalTet& tet) {
+        const int spine = tet.octahedron[1] - tet.octahedron[0];
+        return spine == PaddedMask::step(1, 0, 0) ? 0 : spine == PaddedMask::step(0, 1, 0) ? 1 : 2;
+    }
+    bool isChanged(TetCode code) const {
+        return mChanges && std::binary_search(mChanges->tets.begin(), mChanges->tets.end(), code);
+    }
+
     /// Visit those of the four tets that are in the mesh.
     /// @return the number of ambiguous ones
     template <typename Visit>
@@ -104,8 +144,9 @@ private:
                 manifold += mStates->manifold(tet.vertex(i));
                 interior += mStates->interior(tet.vertex(i));
             }
+            if (manifold + interior < 4) continue;
             ambiguous += manifold == 4;
-            if (manifold < 4 && manifold + interior == 4) visit(tet);
+            if ((manifold < 4) != isChanged(codeOf(tet))) visit(tet);
         }
         return ambiguous;
     }
@@ -113,6 +154,7 @@ private:
     const Vertices& mVertices;
     const Flips& mFlips;
     const LocalStates* mStates = nullptr;
+    const TileChanges* mChanges = nullptr;
     TileRef mTile = 0;
     LocalFlips mLocalFlips;
     TileMask mLattice[3][4], mFlippedA[3], mManifold[3][6];

@@ -268,7 +268,10 @@ MeshFigures examine(const TetMesh& mesh) {
     return figures;
 }
 
-MeshFigures requireClean(const TetMesh& mesh, const AngleBound& bound) {
+namespace {
+
+/// @param doubled  how many points are where another one is
+MeshFigures requireValid(const TetMesh& mesh, const AngleBound& bound, std::int64_t doubled) {
     const MeshFigures f = examine(mesh);
     CAPTURE(f.points, f.tets, f.minAngle, f.maxAngle, f.volume);
     REQUIRE(f.badIndices == 0);
@@ -278,10 +281,16 @@ MeshFigures requireClean(const TetMesh& mesh, const AngleBound& bound) {
     CHECK(f.overusedFaces == 0);
     CHECK(f.misorientedFaces == 0);
     CHECK(f.unusedPoints == 0);
-    CHECK(f.duplicatePoints == 0);
+    CHECK(f.duplicatePoints == doubled);
     CHECK(f.minAngle > bound.lo);
     CHECK(f.maxAngle < bound.hi);
     return f;
+}
+
+} // namespace
+
+MeshFigures requireClean(const TetMesh& mesh, const AngleBound& bound) {
+    return requireValid(mesh, bound, 0);
 }
 
 MeshFigures requireClean(const TetMesh& mesh, const Report& report) {
@@ -290,7 +299,10 @@ MeshFigures requireClean(const TetMesh& mesh, const Report& report) {
     const AngleBound bound = earned ? kNoConflict : kAlways;
     CHECK(report.angleMin >= bound.lo);
     CHECK(report.angleMax <= bound.hi);
-    const MeshFigures f = requireClean(mesh, AngleBound{report.angleMin, report.angleMax});
+    const MeshFigures f =
+        requireValid(mesh, AngleBound{report.angleMin, report.angleMax}, report.boundary.split);
+    CHECK(f.nonmanifoldPoints == report.boundary.left);
+    if (report.boundary.left == 0) requireManifold(f);
     CHECK_FALSE(report.stages.empty());
     CHECK(report.points == f.points);
     CHECK(report.tets == f.tets);

@@ -1,0 +1,138 @@
+// The boundary is a surface even where the lattice does not resolve the shape, and nothing else changes.
+#include "support/Boundary.h"
+#include "support/Catch.h"
+#include "support/Fixtures.h"
+#include "support/MeshChecker.h"
+#include "support/MeshMatch.h"
+#include "support/Meshing.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <vector>
+
+using namespace vdbtet;
+using namespace vdbtet::test;
+
+namespace {
+
+Options with(Options options, Boundary boundary) {
+    options.boundary = boundary;
+    return options;
+}
+
+/// The corners of all tets, in ascending order.
+std::vector<std::array<std::array<double, 3>, 4>> cornersOfTets(const TetMesh& mesh) {
+    std::vector<std::array<std::array<double, 3>, 4>> all;
+    for (const Tet& tet : mesh.tets) {
+        std::array<std::array<double, 3>, 4> corners;
+        for (std::size_t i = 0; i < 4; ++i) {
+            const Vec3d& p = mesh.points[std::size_t(tet[i])];
+            corners[i] = {p.x(), p.y(), p.z()};
+        }
+        std::sort(corners.begin(), corners.end());
+        all.push_back(corners);
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+}
+
+/// Hold all ways to treat the boundary to what they promise.
+/// @return what was mended
+BoundaryCounts requireMended(const openvdb::GridBase& grid, const Options& options) {
+    CAPTURE(options.voxels, options.tiger, options.grade);
+    const Meshed raw = meshOf(grid, with(options, Boundary::Raw)),
+                 fill = meshOf(grid, with(options, Boundary::Fill)),
+                 whole = meshOf(grid, with(options, Boundary::Manifold));
+    // Each judged by the count of points that are no surface, 0 for the last.
+    for (const Meshed* one : {&raw, &fill, &whole}) requireClean(one->mesh, one->report);
+    const BoundaryCounts &none = raw.report.boundary, &some = fill.report.boundary,
+                         all = whole.report.boundary;
+    CHECK(none.left == none.found);
+    CHECK(none.filled + none.peeled + none.split == 0);
+    CHECK(some.found == none.found);
+    CHECK(some.peeled + some.split == 0);
+    CHECK(some.left <= some.found);
+    CHECK(all.found == none.found);
+    CHECK(all.filled >= 0);
+    CHECK(all.left == 0);
+    if (none.found == 0) {
+        requireIdentical(raw.mesh, whole.mesh);
+        requireIdentical(raw.mesh, fill.mesh);
+        CHECK(all.filled + all.peeled + all.split == 0);
+        return all;
+    }
+    const auto before = cornersOfTets(raw.mesh), now = cornersOfTets(whole.mesh);
+    std::vector<std::array<std::array<double, 3>, 4>> more, less;
+    std::set_difference(now.begin(), now.end(), before.begin(), before.end(), std::back_inserter(more));
+    std::set_difference(before.begin(), before.end(), now.begin(), now.end(), std::back_inserter(less));
+    CHECK(std::int64_t(more.size()) == all.filled);
+    CHECK(std::int64_t(less.size()) == all.peeled);
+    CHECK(raw.report.ambiguous - whole.report.ambiguous == all.filled);
+    return all;
+}
+
+} // namespace
+
+TEST_CASE("a boundary that is a surface stays as it is, bit for bit") {
+    for (const double voxels : {0.7, 1.0, 2.0}) {
+        const BoundaryCounts counts =
+            requireMended(*levelSet(torus({0.3, 0.2, 0.1}, 20, 8)), atVoxels(voxels));
+        CHECK(counts.found == 0);
+    }
+}
+
+TEST_CASE("the boundary is a surface whatever the shape: thin walls") {
+    std::int64_t filled = 0, split = 0;
+    for (const double thickness : {1.0, 1.5, 2.0, 3.0}) {
+        const auto grid = levelSet(gyroidBall({0.1, 0.2, 0.3}, 14, 12, thickness));
+        for (const double voxels : {1.0, 1.37, 2.0}) {
+            const BoundaryCounts counts = requireMended(*grid, atVoxels(voxels));
+            filled += counts.filled;
+            split += counts.split;
+        }
+    }
+    CHECK(filled > 0);
+    CHECK(split > 0);
+}
+
+TEST_CASE("the boundary is a surface whatever the shape: noise") {
+    std::int64_t peeled = 0;
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        const auto noise = levelSet(noiseBall(seed, {0.1, 0.2, 0.3}, 14, 1.5));
+        const auto cuts = randomCuts(10, seed, 0.7), signs = randomSigns(14, seed);
+        for (const bool grade : {false, true}) {
+            for (const int tiger : {1, 2}) {
+                const auto options = [&](double voxels) {
+                    Options result = atVoxels(voxels, tiger);
+                    result.grade = grade;
+                    return result;
+                };
+                for (const double voxels : {0.6, 1.0, 1.7}) {
+                    requireMended(*noise, options(voxels));
+                    peeled += requireMended(*signs, options(voxels)).peeled;
+                }
+                peeled += requireMended(*cuts, options(2.0)).peeled;
+            }
+        }
+    }
+    CHECK(peeled > 0);
+}
+
+TEST_CASE("a solid with a rough skin is mended graded as it is uniform") {
+    // Deep enough that the inside has coarse tets next to the mended places.
+    const Shape ball = sphere({0.1, 0.2, 0.3}, 30);
+    const Shape rough = noiseBall(5, {0.1, 0.2, 0.3}, 33, 1.2);
+    const Shape both{[&](const Vec3d& p) { return std::min(ball.distance(p), rough.distance(p)); },
+                     {openvdb::BBoxd(Vec3d(-34), Vec3d(34))}};
+    for (const double voxels : {1.0, 1.5, 3.0}) {
+        Options options = atVoxels(voxels);
+        const BoundaryCounts uniform = requireMended(*levelSet(both), options);
+        options.grade = true;
+        const BoundaryCounts graded = requireMended(*levelSet(both), options);
+        CHECK(uniform.found > 0);
+        CHECK(graded.filled == uniform.filled);
+        CHECK(graded.peeled == uniform.peeled);
+        CHECK(graded.split == uniform.split);
+    }
+}
