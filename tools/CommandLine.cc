@@ -44,7 +44,13 @@ std::string isPositive(const std::string& text) {
 
 void check(const CommandLine& line) {
     if (line.out.empty() && !line.dryRun) throw UsageError("OUT is missing; --help lists the options");
-    if (!line.out.empty()) vdbtet::MeshFile::formatOf(line.out, line.format); // or it throws
+    if (!line.out.empty() || !line.format.empty()) {
+        const vdbtet::MeshFormat& format = vdbtet::MeshFile::formatOf(line.out, line.format); // or it throws
+        if (line.hasFields()) vdbtet::MeshFile::requireFields(format);
+        if (line.usd) vdbtet::MeshFile::requireUsd(format);
+    }
+    if (!line.fieldsFrom.empty() && line.sample.empty() && line.sampleCells.empty())
+        throw UsageError("--fields-from is for --sample and --sample-cells, and neither is given");
     const std::pair<const char*, const std::string*> files[] = {
         {"IN", &line.in}, {"OUT", &line.out}, {"--report", &line.report}, {"--surface", &line.surface}};
     for (const auto& one : files) {
@@ -118,14 +124,54 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
                        "Default: {}",
                        options.maxSurfaceTiles))
         ->type_name("N");
-    auto* sample =
-        app.add_option("--sample", line.sample,
-                       "Grids of IN whose values the points shall carry, trilinear; all for all others")
-            ->delimiter(',')
-            ->type_name("GRID,...");
-    app.add_option("--fields-from", line.fieldsFrom, "With --sample: the file that holds them. Default: IN")
+    app.add_option("--sample", line.sample,
+                   "Grids of IN whose values the points shall carry, trilinear; all for all others")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->type_name("GRID,...")
+        ->group("Fields");
+    app.add_option("--sample-cells", line.sampleCells,
+                   "Grids whose values at their centroids the tets shall carry; all for all others")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->type_name("GRID,...")
+        ->group("Fields");
+    app.add_option("--fields-from", line.fieldsFrom, "The file that holds these grids. Default: IN")
         ->type_name("FILE.vdb")
-        ->needs(sample);
+        ->group("Fields");
+    app.add_flag("--boundary-flag", line.boundaryFlag,
+                 "Add the point field boundary: 1 on the surface, else 0")
+        ->group("Fields");
+    app.add_flag("--min-dihedral", line.minDihedral,
+                 "Add the tet field min_dihedral: each one's smallest dihedral angle, in degrees")
+        ->group("Fields");
+    auto* distance = app.add_option("--distance", line.distanceWidth,
+                                    "Add the point field distance: to the surface, negative inside, down to "
+                                    "-WIDTH, in world units. Default: 3 voxels")
+                         ->expected(0, 1)
+                         ->check(positive)
+                         ->type_name("[WIDTH]")
+                         ->group("Fields");
+    app.add_option("--scale", line.scale, "Multiply all coordinates that are written. Default: 1")
+        ->check(positive)
+        ->type_name("FACTOR");
+    vdbtet::UsdOptions usd;
+    const std::map<std::string, vdbtet::UsdOptions::Axis> axes = {{"y", vdbtet::UsdOptions::Axis::Y},
+                                                                  {"z", vdbtet::UsdOptions::Axis::Z}};
+    auto* upAxis = app.add_option_function<std::string>(
+                          "--up-axis", [&](const std::string& axis) { usd.upAxis = axes.at(axis); },
+                          "The up axis that a .usda file states; nothing is turned. Default: y")
+                       ->check(CLI::IsMember(axes).description(""))
+                       ->type_name("y|z")
+                       ->group("OpenUSD");
+    auto* metersPerUnit = app.add_option("--meters-per-unit", usd.metersPerUnit,
+                                         "The unit that a .usda file states, of its coordinates. Default: 1")
+                              ->check(positive)
+                              ->type_name("METERS")
+                              ->group("OpenUSD");
+    auto* usdSurface =
+        app.add_flag("--usd-surface", usd.surface, "Write the boundary into the .usda file as a Mesh, too")
+            ->group("OpenUSD");
     app.add_option("-j,--threads", line.threads, "Threads to use. Default: 0, all")
         ->check(CLI::Range(0, 4096).description(""))
         ->type_name("N");
@@ -145,6 +191,8 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
     } catch (const CLI::Error& error) {
         throw UsageError(error.what());
     }
+    line.distance = distance->count() > 0;
+    if (upAxis->count() + metersPerUnit->count() + usdSurface->count() > 0) line.usd = usd;
     check(line);
     return line;
 }

@@ -75,6 +75,7 @@ std::string asJson(const CommandLine& line, const Summary& summary) {
         {"input", line.in},
         {"output", line.dryRun ? nlohmann::ordered_json() : nlohmann::ordered_json(line.out)},
         {"bytes", summary.bytes},
+        {"scale", line.scale},
         {"gridName", r.gridName},
         {"gridType", summary.gridType},
         {"isovalue", r.isovalue},

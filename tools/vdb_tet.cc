@@ -8,6 +8,8 @@
 #include <vdbtet/FieldSampler.h>
 #include <vdbtet/GridFile.h>
 #include <vdbtet/MeshFile.h>
+#include <vdbtet/MeshScaler.h>
+#include <vdbtet/SignedDistance.h>
 #include <vdbtet/SurfaceFile.h>
 #include <vdbtet/VolumeToTets.h>
 
@@ -32,15 +34,15 @@ double secondsSince(Clock::time_point start) {
 
 /// Passes a mesh on to its files, or its totals to nobody in a dry run.
 struct Output final : vdbtet::MeshSink {
-    explicit Output(const CommandLine& line) : path(line.out), format(line.format) {
+    explicit Output(const CommandLine& line) : path(line.out), format(line.format), usd(line.usd) {
         if (path.empty()) path = "mesh.vtu"; // of what size would it be?
         if (line.dryRun) return;
-        file = std::make_unique<vdbtet::MeshFile>(path, format);
+        file = std::make_unique<vdbtet::MeshFile>(path, format, usd);
         if (!line.surface.empty()) surface = std::make_unique<vdbtet::SurfaceFile>(line.surface);
     }
 
     bool begin(const vdbtet::MeshTotals& totals) override {
-        bytes = vdbtet::MeshFile::size(path, totals, format);
+        bytes = vdbtet::MeshFile::size(path, totals, format, usd);
         if (surface) surface->begin(totals);
         return file && file->begin(totals);
     }
@@ -60,6 +62,7 @@ struct Output final : vdbtet::MeshSink {
     }
 
     std::string path, format;
+    std::optional<vdbtet::UsdOptions> usd;
     std::unique_ptr<vdbtet::MeshFile> file;
     std::unique_ptr<vdbtet::SurfaceFile> surface; ///< or null
     std::uint64_t bytes = 0;
@@ -71,13 +74,34 @@ void print(const std::string& text) {
     }
 }
 
-std::vector<openvdb::GridBase::ConstPtr> fieldsOf(const CommandLine& line, const openvdb::GridBase& meshed) {
-    if (line.sample.empty()) return {};
+/// The grids of a list of names.
+std::vector<openvdb::GridBase::ConstPtr> gridsOf(const std::vector<std::string>& names,
+                                                 const CommandLine& line, const openvdb::GridBase& meshed) {
+    if (names.empty()) return {};
     const bool elsewhere = !line.fieldsFrom.empty();
-    const bool all = line.sample.size() == 1 && line.sample[0] == "all";
-    return vdbtet::readFields(elsewhere ? line.fieldsFrom : line.in,
-                              all ? std::vector<std::string>() : line.sample,
+    const bool all = names.size() == 1 && names[0] == "all";
+    return vdbtet::readFields(elsewhere ? line.fieldsFrom : line.in, all ? std::vector<std::string>() : names,
                               elsewhere ? std::string() : meshed.getName());
+}
+
+vdbtet::FieldOptions fieldsOf(const CommandLine& line, const openvdb::GridBase& meshed,
+                              SignalInterrupter& interrupter) {
+    vdbtet::FieldOptions fields;
+    fields.pointGrids = gridsOf(line.sample, line, meshed);
+    fields.cellGrids =
+        line.sampleCells == line.sample ? fields.pointGrids : gridsOf(line.sampleCells, line, meshed);
+    fields.boundaryFlag = line.boundaryFlag;
+    fields.minDihedral = line.minDihedral;
+    if (!line.distance) return fields;
+    openvdb::GridBase::Ptr distance;
+    if (line.dryRun) { // only its name and type count
+        distance = openvdb::FloatGrid::create();
+        distance->setName("distance");
+    } else {
+        distance = vdbtet::signedDistance(meshed, line.options, line.distanceWidth, &interrupter);
+    }
+    fields.pointGrids.push_back(distance);
+    return fields;
 }
 
 int run(const CommandLine& line) {
@@ -97,7 +121,11 @@ int run(const CommandLine& line) {
     if (!line.report.empty()) reportFile = std::make_unique<vdbtet::OutputFile>(line.report);
     Output output(line);
 
-    vdbtet::FieldSampler sampler(output, fieldsOf(line, *grid));
+    vdbtet::MeshScaler scaler(output, line.scale);
+    vdbtet::MeshSink& written = line.scale == 1.0 ? static_cast<vdbtet::MeshSink&>(output) : scaler;
+    const auto fieldsStart = Clock::now();
+    vdbtet::FieldSampler sampler(written, fieldsOf(line, *grid, interrupter));
+    const double fieldsSeconds = secondsSince(fieldsStart);
 
     Summary summary;
     summary.report = vdbtet::volumeToTets(*grid, sampler, line.options, &interrupter);
@@ -106,7 +134,9 @@ int run(const CommandLine& line) {
         return 128 + interrupter.signal();
     }
     summary.seconds = secondsSince(start);
-    summary.report.stages.insert(summary.report.stages.begin(), {"read", readSeconds});
+    auto& stages = summary.report.stages;
+    if (line.hasFields()) stages.insert(stages.begin(), {"fields", fieldsSeconds});
+    stages.insert(stages.begin(), {"read", readSeconds});
     summary.gridType = grid->valueType() + ", " + openvdb::GridBase::gridClassToString(grid->getGridClass());
     summary.bytes = output.bytes;
 

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,23 +17,37 @@ struct MeshFormat {
     std::string name;                    ///< as an option has it
     std::vector<std::string> extensions; ///< file names' that stand for it, with the dot
     std::string description;
+    bool holdsFields = true;      ///< values at points and in tets
+    bool takesUsdOptions = false; ///< states what UsdOptions have
 };
 
 /// All of them.
 const std::vector<MeshFormat>& meshFormats();
+
+/// What a file of OpenUSD has besides the mesh. The mesh stays as it is: nothing is turned or scaled.
+struct UsdOptions {
+    enum class Axis { Y, Z };
+    Axis upAxis = Axis::Y;
+    double metersPerUnit = 1.0;
+    /// The boundary as a Mesh, too, for programs that show no TetMesh: the default prim is an Xform "mesh" of
+    /// a TetMesh "tets" and a Mesh "surface", which takes points and point fields from the TetMesh.
+    bool surface = false;
+};
 
 /// @brief Writes a mesh into a file, or a few files that belong together.
 /// @details A file is written beside its target under a temporary name and renamed by end(), so the target is
 /// always either the old file or the whole new one. Coordinates are world space, and float64, or float32
 /// where MeshTotals::float32Suffices and the format is used with either; texts have the digits that these
 /// need. Every member throws FileError when a file cannot be written, and begin() throws TooLarge when the
-/// format cannot hold so large a mesh, and BadOption when there are fields at points and it cannot hold them.
+/// format cannot hold so large a mesh, and BadOption when there are fields and it cannot hold them.
 class MeshFile final : public MeshSink {
 public:
     /// @param path    with an extension that tells the format, unless @a format does
     /// @param format  name of a format; default: by the extension
-    /// @throw BadOption where there is no such format
-    explicit MeshFile(const std::string& path, const std::string& format = {});
+    /// @param usd     for formats that take them
+    /// @throw BadOption where there is no such format, or it takes no UsdOptions
+    explicit MeshFile(const std::string& path, const std::string& format = {},
+                      const std::optional<UsdOptions>& usd = {});
     ~MeshFile() override;
 
     bool begin(const MeshTotals& totals) override;
@@ -45,10 +60,15 @@ public:
     /// @throw BadOption as above
     static const MeshFormat& formatOf(const std::string& path, const std::string& format = {});
 
+    /// @throw BadOption where it does not hold fields, as begin() does, or takes no UsdOptions: for those who
+    /// ask before the work
+    static void requireFields(const MeshFormat& format);
+    static void requireUsd(const MeshFormat& format);
+
     /// @return the exact size in bytes of what a mesh of @a totals takes in files like @a path.
     /// @throw BadOption, TooLarge as above
     static std::uint64_t size(const std::string& path, const MeshTotals& totals,
-                              const std::string& format = {});
+                              const std::string& format = {}, const std::optional<UsdOptions>& usd = {});
 
 private:
     struct Impl;

@@ -86,6 +86,9 @@ struct Parcel {
     std::vector<openvdb::Vec3d> points;
     std::vector<Tet> tets;
     ChunkBoundary boundary;
+    TetShapes shapes;
+
+    explicit Parcel(const MeshWants& wants) : shapes(wants) {}
 
     ChunkMemory memory(std::size_t nPoints, std::size_t nTets) {
         if (points.size() < nPoints) points.resize(nPoints);
@@ -108,7 +111,7 @@ public:
     Emission(const Grading& grading, const Numbering& numbering, Emitters& emitters, MeshSink& sink,
              Interrupt& interrupt)
         : mGrading(grading), mNumbering(numbering), mEmitters(emitters), mSink(sink), mInterrupt(interrupt),
-          mWantsTriangles(sink.wants().triangles) {}
+          mWants(sink.wants()) {}
 
     void run() {
         Units units(mGrading, mNumbering);
@@ -137,7 +140,7 @@ private:
 
     Parcel* make(const Unit& unit) {
         Parcel* parcel = nullptr;
-        if (!mSpare.try_pop(parcel)) parcel = mParcels.push_back(std::make_unique<Parcel>())->get();
+        if (!mSpare.try_pop(parcel)) parcel = mParcels.push_back(std::make_unique<Parcel>(mWants))->get();
         MeshChunk& chunk = parcel->chunk;
         chunk.firstPoint = pointsBefore(unit.begin);
         chunk.firstTet = tetsBefore(unit.begin);
@@ -146,6 +149,8 @@ private:
         chunk.firstTriangle = mNumbering.firstTriangle[unit.begin.span]; // a run has none
         ChunkBoundary& boundary = parcel->boundary;
         boundary.clear();
+        TetShapes& shapes = parcel->shapes;
+        shapes.clear();
         ChunkMemory memory = mSink.memory(chunk.firstPoint, chunk.firstTet);
         // Memory that is not aligned to a tet's half takes plain stores.
         bool streaming = reinterpret_cast<std::uintptr_t>(memory.tets) % 16 == 0;
@@ -153,7 +158,8 @@ private:
             memory = parcel->memory(points, tets);
             streaming = false;
         }
-        Output out{memory.points, memory.tets, mWantsTriangles ? &boundary : nullptr, streaming};
+        Output out{memory.points, memory.tets, mWants.triangles ? &boundary : nullptr,
+                   shapes.wanted() ? &shapes : nullptr, streaming};
         TileEmitter& emitter = *mEmitters.local();
         for (Place at = unit.begin; at.span != unit.end.span || at.offset != unit.end.offset;) {
             const Located span = locate(mNumbering, at.span);
@@ -165,6 +171,8 @@ private:
         chunk.tets = {memory.tets, tets};
         chunk.triangles = {boundary.triangles.data(), boundary.triangles.size()};
         chunk.surfacePoints = {boundary.points.data(), boundary.points.size()};
+        chunk.centroids = {shapes.centroids().data(), shapes.centroids().size()};
+        chunk.minDihedrals = {shapes.minDihedrals().data(), shapes.minDihedrals().size()};
         return parcel;
     }
 
@@ -180,7 +188,7 @@ private:
     Emitters& mEmitters;
     MeshSink& mSink;
     Interrupt& mInterrupt;
-    const bool mWantsTriangles;
+    const MeshWants mWants;
     tbb::concurrent_vector<std::unique_ptr<Parcel>> mParcels; ///< all, wherever an exception leaves them
     tbb::concurrent_queue<Parcel*> mSpare;
 };

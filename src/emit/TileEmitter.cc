@@ -103,6 +103,19 @@ Tet* writeInteriorTile(const std::int64_t* ids, Tet* tets) {
     return writer.next();
 }
 
+/// Each local number itself: what the writers of tets take for ids when local numbers are wanted.
+const std::array<std::int64_t, kLocalVertices> kLocalNumbers = [] {
+    std::array<std::int64_t, kLocalVertices> numbers{};
+    for (int local = 0; local < kLocalVertices; ++local) numbers[local] = local;
+    return numbers;
+}();
+
+/// The lowest vertex of a tile whose units are @a unit cells.
+Vec3d originOf(const Coord& tile, double unit) { return 8.0 * unit * tile.asVec3d(); }
+
+/// The place of a unitPoint() in a tile, in units.
+Vec3d placeOf(int point) { return Vec3d(unitX(point), unitY(point), unitZ(point)); }
+
 } // namespace
 
 Output TileEmitter::emit(int tier, std::int64_t span, std::int64_t offset, Output out) {
@@ -112,6 +125,7 @@ Output TileEmitter::emit(int tier, std::int64_t span, std::int64_t offset, Outpu
     mIds.load(tier, tile, around);
     if (mGrading.top == 0 && s.tile < 0) {
         emitRunTile(tile, out);
+        if (out.shapes) addRunShapes(tile, *out.shapes);
         return out;
     }
     const TileRef surface = mGrading.surfaceOf(tier, s.tile);
@@ -124,9 +138,15 @@ Output TileEmitter::emit(int tier, std::int64_t span, std::int64_t offset, Outpu
         emitPoints(tier, tile, bcc::A,
                    s.tile < 0 ? mNumbering.usedInRun[bcc::A] : mNumbering.usedA[tier][s.tile], false, out);
     }
-    if (hasCells) emitCells(surface, out);
+    if (hasCells) {
+        emitCells(surface, out);
+        if (out.shapes) addCellShapes(tile, surface, *out.shapes);
+    }
     if (surface >= 0 && out.boundary) emitBoundary(s.tile, surface, *out.boundary);
-    if (mGrading.top > 0) emitOctants(out);
+    if (mGrading.top > 0) {
+        emitOctants(out);
+        if (out.shapes) addOctantShapes(tier, tile, *out.shapes);
+    }
     return out;
 }
 
@@ -302,6 +322,48 @@ void TileEmitter::emitOctants(Output& out) {
     for (int level = 1; level <= mOctants.coarsest(); ++level) {
         forEachTetOfLevel(mOctants, level, [&](TetKind, int a, int b, int c, int d) {
             *out.tets++ = {mIds.at(a), mIds.at(b), mIds.at(c), mIds.at(d)};
+        });
+    }
+}
+
+void TileEmitter::addRunShapes(const Coord& tile, TetShapes& shapes) {
+    mLocalTets.resize(std::size_t(mNumbering.runTets));
+    writeInteriorTile<Cached>(kLocalNumbers.data(), mLocalTets.data());
+    for (const Tet& tet : mLocalTets) {
+        shapes.add(mFrame, originOf(tile, 1.0),
+                   {homeOf(int(tet[0])), homeOf(int(tet[1])), homeOf(int(tet[2])), homeOf(int(tet[3]))},
+                   TetKind::Lattice);
+    }
+}
+
+void TileEmitter::addCellShapes(const Coord& tile, TileRef surface, TetShapes& shapes) {
+    const Vec3d origin = originOf(tile, 1.0);
+    mLocalTets.resize(std::size_t(mTets.tets()));
+    writeSurfaceTile<Cached>(mTets, kLocalNumbers.data(), mLocalTets.data());
+    const LocalPositions& positions = mMeasurer.positions();
+    for (const Tet& tet : mLocalTets) {
+        const int a = int(tet[0]), b = int(tet[1]), c = int(tet[2]), d = int(tet[3]);
+        if (surface >= 0) {
+            shapes.add(mFrame, origin, {positions[a], positions[b], positions[c], positions[d]});
+        } else {
+            shapes.add(mFrame, origin, {homeOf(a), homeOf(b), homeOf(c), homeOf(d)}, TetKind::Lattice);
+        }
+    }
+    if (mGrading.top == 0) return;
+    forEachTetOfFringe(
+        mOctants, mStates.interiorMask(bcc::B).core(), [&](TetKind kind, int a, int b, int c, int d) {
+            shapes.add(mFrame, origin, {homeOf(localIndex(bcc::B, a)), placeOf(b), placeOf(c), placeOf(d)},
+                       kind);
+        });
+}
+
+void TileEmitter::addOctantShapes(int tier, const Coord& tile, TetShapes& shapes) const {
+    const double unit = double(std::int64_t(1) << 3 * tier);
+    const Vec3d origin = originOf(tile, unit);
+    for (int level = 1; level <= mOctants.coarsest(); ++level) {
+        forEachTetOfLevel(mOctants, level, [&](TetKind kind, int a, int b, int c, int d) {
+            shapes.add(mFrame, origin,
+                       {unit * placeOf(a), unit * placeOf(b), unit * placeOf(c), unit * placeOf(d)}, kind);
         });
     }
 }

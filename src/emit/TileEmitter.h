@@ -4,6 +4,7 @@
 
 #include "bcc/Frame.h"
 #include "emit/PointIds.h"
+#include "emit/TetShapes.h"
 #include "emit/TileMeasurer.h"
 #include "numbering/Numbering.h"
 #include "tets/BoundaryFaces.h"
@@ -31,6 +32,7 @@ struct Output {
     openvdb::Vec3d* points;
     Tet* tets;
     ChunkBoundary* boundary; ///< null if nobody wants it
+    TetShapes* shapes;       ///< the same
     bool streaming;          ///< past the caches, which the mesh would only flush; see drainStores()
 };
 
@@ -72,6 +74,10 @@ private:
         return lattice == bcc::A ? mNumbering.usedA[0][record] : mNumbering.usedB[surface];
     }
     void emitOctants(Output& out);
+    /// Of the tets just written.
+    void addRunShapes(const openvdb::Coord& tile, TetShapes& shapes);
+    void addCellShapes(const openvdb::Coord& tile, TileRef surface, TetShapes& shapes);
+    void addOctantShapes(int tier, const openvdb::Coord& tile, TetShapes& shapes) const;
 
     const Vertices& mVertices;
     const Grading& mGrading;
@@ -83,6 +89,7 @@ private:
     PointIds mIds;
     std::vector<LocalFace> mFaces;
     TileMeasurer mMeasurer;
+    std::vector<Tet> mLocalTets; ///< by local numbers instead of ids
 };
 
 } // namespace vdbtet

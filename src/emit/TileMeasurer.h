@@ -15,6 +15,9 @@ public:
     /// @param tets  of surface tile @a tile
     void measure(TileRef tile, const TileTets& tets);
 
+    /// Of the tile measured last.
+    const LocalPositions& positions() const { return mPositions; }
+
     /// Sums of integers and extremes, so neither the order nor the thread matters.
     AngleSum& sum() { return mSum; }
 

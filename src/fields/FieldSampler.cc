@@ -6,6 +6,9 @@
 
 #include <openvdb/openvdb.h>
 
+#include <tbb/concurrent_queue.h>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
@@ -109,28 +112,78 @@ using Samplable = GridTypes<openvdb::FloatGrid, openvdb::DoubleGrid, openvdb::In
 
 } // namespace
 
-struct FieldSampler::Impl {
-    MeshSink& next;
-    std::vector<MeshField> fields;
-    std::vector<std::unique_ptr<Sampled>> grids; ///< of the fields
-};
+namespace {
 
-FieldSampler::FieldSampler(MeshSink& next, const std::vector<openvdb::GridBase::ConstPtr>& grids)
-    : mImpl(new Impl{next, {}, {}}) {
-    std::set<std::string> names;
-    for (const auto& grid : grids) {
-        std::string name = grid->getName().empty() ? "field" : grid->getName();
+/// Fields at the points, or in the tets.
+class Fields {
+public:
+    void add(const std::string& gridName, const openvdb::GridBase::ConstPtr& grid) {
         std::unique_ptr<Sampled> sampled = Samplable::sampled(grid);
         if (!sampled) {
-            throw UnsupportedGrid("grid '" + name + "' of type " + grid->valueType() +
+            throw UnsupportedGrid("grid '" + gridName + "' of type " + grid->valueType() +
                                   " cannot be sampled; only float, double, int and vector grids can");
         }
-        // Readers look fields up by their names.
-        while (!names.insert(name).second) name += "_";
-        mImpl->fields.push_back({name, sampled->components()});
-        mImpl->grids.push_back(std::move(sampled));
+        announce(gridName, sampled->components());
+        mGrids.push_back(std::move(sampled));
     }
+    void add(const std::vector<openvdb::GridBase::ConstPtr>& grids) {
+        for (const auto& grid : grids) add(grid->getName().empty() ? "field" : grid->getName(), grid);
+    }
+    /// One that is not of a grid, and comes after all that are.
+    void announce(std::string name, int components) {
+        // Readers look fields up by their names.
+        while (!mNames.insert(name).second) name += "_";
+        mFields.push_back({name, components});
+    }
+
+    const std::vector<MeshField>& all() const { return mFields; }
+    bool ofGrids() const { return !mGrids.empty(); }
+
+    /// @param values  receives them for all grids, one after the other
+    void sample(const ArrayView<Vec3d>& at, std::vector<float>& values,
+                std::vector<ArrayView<float>>& views) const {
+        std::size_t components = 0;
+        for (const auto& grid : mGrids) components += std::size_t(grid->components());
+        values.resize(components * at.size());
+        float* next = values.data();
+        for (std::size_t i = 0; i < mGrids.size(); ++i) {
+            const std::size_t count = at.size() * std::size_t(mFields[i].components);
+            mGrids[i]->sample(at, next);
+            views.emplace_back(next, count);
+            next += count;
+        }
+    }
+
+private:
+    std::vector<MeshField> mFields;
+    std::vector<std::unique_ptr<Sampled>> mGrids; ///< of the first fields
+    std::set<std::string> mNames;
+};
+
+/// The values of a chunk.
+struct Values {
+    std::vector<float> points, cells, flags;
+};
+
+} // namespace
+
+struct FieldSampler::Impl {
+    MeshSink& next;
+    bool boundaryFlag, minDihedral;
+    Fields points, cells;
+    tbb::concurrent_queue<Values> spare; ///< memory that chunks before have left
+};
+
+FieldSampler::FieldSampler(MeshSink& next, const FieldOptions& fields)
+    : mImpl(new Impl{next, fields.boundaryFlag, fields.minDihedral, {}, {}, {}}) {
+    mImpl->points.add(fields.pointGrids);
+    mImpl->cells.add(fields.cellGrids);
+    if (fields.boundaryFlag) mImpl->points.announce("boundary", 1);
+    if (fields.minDihedral) mImpl->cells.announce("min_dihedral", 1);
 }
+
+FieldSampler::FieldSampler(MeshSink& next, const std::vector<openvdb::GridBase::ConstPtr>& grids)
+    : FieldSampler(next, FieldOptions{grids, {}, false, false}) {}
 
 FieldSampler::~FieldSampler() = default;
 
@@ -138,24 +191,40 @@ bool FieldSampler::canSample(const openvdb::GridBase& grid) { return Samplable::
 
 bool FieldSampler::begin(const MeshTotals& totals) {
     MeshTotals more = totals;
-    more.pointFields.insert(more.pointFields.end(), mImpl->fields.begin(), mImpl->fields.end());
+    const auto append = [](std::vector<MeshField>& to, const std::vector<MeshField>& fields) {
+        to.insert(to.end(), fields.begin(), fields.end());
+    };
+    append(more.pointFields, mImpl->points.all());
+    append(more.cellFields, mImpl->cells.all());
     return mImpl->next.begin(more);
 }
 
 void FieldSampler::chunk(const MeshChunk& chunk) {
     MeshChunk more = chunk;
-    std::vector<std::vector<float>> values(mImpl->grids.size());
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        values[i].resize(chunk.points.size() * std::size_t(mImpl->fields[i].components));
-        mImpl->grids[i]->sample(chunk.points, values[i].data());
-        more.pointFields.emplace_back(values[i].data(), values[i].size());
+    Values values;
+    mImpl->spare.try_pop(values);
+    mImpl->points.sample(chunk.points, values.points, more.pointFields);
+    mImpl->cells.sample(chunk.centroids, values.cells, more.cellFields);
+    if (mImpl->boundaryFlag) {
+        values.flags.assign(chunk.points.size(), 0.0f);
+        for (const std::int64_t id : chunk.surfacePoints)
+            values.flags[std::size_t(id - chunk.firstPoint)] = 1.0f;
+        more.pointFields.emplace_back(values.flags.data(), values.flags.size());
     }
+    if (mImpl->minDihedral) more.cellFields.push_back(chunk.minDihedrals);
     mImpl->next.chunk(more);
+    mImpl->spare.push(std::move(values));
 }
 
 void FieldSampler::end() { mImpl->next.end(); }
 bool FieldSampler::concurrent() const { return mImpl->next.concurrent(); }
-MeshWants FieldSampler::wants() const { return mImpl->next.wants(); }
+MeshWants FieldSampler::wants() const {
+    MeshWants wants = mImpl->next.wants();
+    wants.triangles = wants.triangles || mImpl->boundaryFlag;
+    wants.centroids = wants.centroids || mImpl->cells.ofGrids();
+    wants.minDihedrals = wants.minDihedrals || mImpl->minDihedral;
+    return wants;
+}
 ChunkMemory FieldSampler::memory(std::int64_t firstPoint, std::int64_t firstTet) {
     return mImpl->next.memory(firstPoint, firstTet);
 }

@@ -15,7 +15,7 @@ namespace {
 
 struct Known {
     MeshFormat format;
-    MakeFormat make;
+    MakeFormat make; ///< null where makeUsda() does
     /// What takes the place of the extension in the names of the files; empty for a single file of the
     /// target's own name.
     std::vector<std::string> files;
@@ -28,15 +28,15 @@ const std::vector<Known>& known() {
         {{"vtk", {".vtk"}, "legacy VTK, binary"}, makeVtk, {}},
         {{"msh", {".msh"}, "Gmsh MSH 4.1, binary"}, makeMsh, {}},
         {{"msh22", {}, "Gmsh MSH 2.2, binary"}, makeMsh22, {}},
-        {{"mesh", {".mesh"}, "Medit, text"}, makeMesh, {}},
-        {{"meshb", {".meshb"}, "Medit, binary"}, makeMeshb, {}},
+        {{"mesh", {".mesh"}, "Medit, text", false}, makeMesh, {}},
+        {{"meshb", {".meshb"}, "Medit, binary", false}, makeMeshb, {}},
         {{"tetgen", {".ele", ".node"}, "TetGen .node, .ele and .face, text"},
          makeTetGen,
          {".node", ".ele", ".face"}},
         {{"npz", {".npz"}, "NumPy arrays vertices and tet_indices, for Newton and Warp"}, makeNpz, {}},
-        {{"inp", {".inp"}, "Abaqus input, text"}, makeInp, {}},
+        {{"inp", {".inp"}, "Abaqus input, text", false}, makeInp, {}},
         {{"geo", {".geo"}, "Houdini geometry, JSON text"}, makeGeo, {}},
-        {{"usda", {".usda"}, "OpenUSD TetMesh, text"}, makeUsda, {}},
+        {{"usda", {".usda"}, "OpenUSD TetMesh, text", true, true}, nullptr, {}},
     };
     return kKnown;
 }
@@ -69,13 +69,11 @@ std::vector<std::string> pathsOf(const std::string& path, const Known& one) {
 }
 
 /// Lay a mesh out.
-std::unique_ptr<const Format> makeFormat(const Known& one, const MeshTotals& totals) {
-    std::unique_ptr<const Format> format = one.make(totals);
-    if (!totals.pointFields.empty() && !format->holdsFields()) {
-        throw BadOption("the format " + one.format.name +
-                        " is written without fields at points; vtu, vtk and npz have them");
-    }
-    return format;
+std::unique_ptr<const Format> makeFormat(const Known& one, const MeshTotals& totals,
+                                         const std::optional<UsdOptions>& usd) {
+    if (!totals.pointFields.empty() || !totals.cellFields.empty()) MeshFile::requireFields(one.format);
+    if (usd) MeshFile::requireUsd(one.format);
+    return one.make ? one.make(totals) : makeUsda(totals, usd.value_or(UsdOptions()));
 }
 
 } // namespace
@@ -90,26 +88,29 @@ const std::vector<MeshFormat>& meshFormats() {
 }
 
 struct MeshFile::Impl {
-    Impl(const std::string& target, const Known& one) : path(target), known(one) {
+    Impl(const std::string& target, const Known& one, const std::optional<UsdOptions>& usdOptions)
+        : path(target), known(one), usd(usdOptions) {
+        if (usd) requireUsd(one.format);
         for (const std::string& name : pathsOf(target, one)) files.emplace_back(name);
     }
 
     std::string path;
     const Known& known;
+    std::optional<UsdOptions> usd;
     std::deque<RecordFile> files;
     MeshTotals totals;
     std::unique_ptr<const Format> format;
     std::atomic<std::int64_t> points{0}, tets{0}, triangles{0}; ///< written
 };
 
-MeshFile::MeshFile(const std::string& path, const std::string& format)
-    : mImpl(std::make_unique<Impl>(path, find(path, format))) {}
+MeshFile::MeshFile(const std::string& path, const std::string& format, const std::optional<UsdOptions>& usd)
+    : mImpl(std::make_unique<Impl>(path, find(path, format), usd)) {}
 
 MeshFile::~MeshFile() = default;
 
 bool MeshFile::begin(const MeshTotals& totals) {
     mImpl->totals = totals;
-    mImpl->format = makeFormat(mImpl->known, totals);
+    mImpl->format = makeFormat(mImpl->known, totals, mImpl->usd);
     const auto& layouts = mImpl->format->layouts();
     for (std::size_t i = 0; i < layouts.size(); ++i) mImpl->files[i].start(layouts[i]);
     return true;
@@ -151,8 +152,25 @@ const MeshFormat& MeshFile::formatOf(const std::string& path, const std::string&
     return find(path, format).format;
 }
 
-std::uint64_t MeshFile::size(const std::string& path, const MeshTotals& totals, const std::string& format) {
-    const std::unique_ptr<const Format> made = makeFormat(find(path, format), totals);
+void MeshFile::requireFields(const MeshFormat& format) {
+    if (format.holdsFields) return;
+    std::string others;
+    for (const MeshFormat& one : meshFormats()) {
+        if (one.holdsFields) others += (others.empty() ? "" : ", ") + one.name;
+    }
+    throw BadOption("the format " + format.name + " is written without fields; those with fields are " +
+                    others);
+}
+
+void MeshFile::requireUsd(const MeshFormat& format) {
+    if (!format.takesUsdOptions)
+        throw BadOption("the format " + format.name +
+                        " states no up axis and no unit, and has no prims; usda does");
+}
+
+std::uint64_t MeshFile::size(const std::string& path, const MeshTotals& totals, const std::string& format,
+                             const std::optional<UsdOptions>& usd) {
+    const std::unique_ptr<const Format> made = makeFormat(find(path, format), totals, usd);
     std::uint64_t bytes = 0;
     for (const RecordLayout& layout : made->layouts()) bytes += layout.size();
     return bytes;

@@ -1,6 +1,8 @@
 // Values of grids at points, against the functions that the grids were filled with.
+#include "support/Boundary.h"
 #include "support/Catch.h"
 #include "support/Fixtures.h"
+#include "support/MeshChecker.h"
 #include "support/MeshMatch.h"
 #include "support/Meshing.h"
 
@@ -10,7 +12,9 @@
 #include <openvdb/openvdb.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
 
 using namespace vdbtet;
 using namespace vdbtet::test;
@@ -46,6 +50,31 @@ FieldSink sampled(const openvdb::GridBase::ConstPtr& grid) {
     volumeToTets(*levelSet(sphere({0.1, 0.2, 0.3}, 6)), sampler);
     return sink;
 }
+
+/// Keeps the mesh and all of its fields.
+struct FieldsSink final : MeshSink {
+    bool begin(const MeshTotals& announced) override {
+        totals = announced;
+        points.resize(totals.pointFields.size());
+        cells.resize(totals.cellFields.size());
+        return mesh.begin(announced);
+    }
+    void chunk(const MeshChunk& chunk) override {
+        REQUIRE(chunk.pointFields.size() == points.size());
+        REQUIRE(chunk.cellFields.size() == cells.size());
+        const auto append = [](std::vector<float>& to, const ArrayView<float>& values) {
+            to.insert(to.end(), values.begin(), values.end());
+        };
+        for (std::size_t f = 0; f < points.size(); ++f) append(points[f], chunk.pointFields[f]);
+        for (std::size_t f = 0; f < cells.size(); ++f) append(cells[f], chunk.cellFields[f]);
+        mesh.chunk(chunk);
+    }
+    void end() override { mesh.end(); }
+
+    MeshTotals totals;
+    TetMesh mesh;
+    std::vector<std::vector<float>> points, cells;
+};
 
 /// Voxels of 0.5 or so, turned, around that ball.
 template <typename GridT, typename ValueF>
@@ -109,6 +138,75 @@ TEST_CASE("components of a staggered grid lie on the faces of voxels", "[fields]
     }
 }
 
+TEST_CASE("a linear field comes out as it is at centroids, too", "[fields]") {
+    const auto function = [](const Vec3d& p) { return 2.0 * p.x() - 3.0 * p.y() + 0.25 * p.z() + 1.0; };
+    const auto transform =
+        filled<openvdb::FloatGrid>([](const openvdb::Coord&) { return 0.0f; })->transformPtr();
+    const auto grid = filled<openvdb::Vec3DGrid>([&](const openvdb::Coord& at) {
+        const Vec3d p = transform->indexToWorld(at);
+        return Vec3d(function(p), p.x(), p.z());
+    });
+    for (const bool grade : {false, true}) {
+        FieldsSink sink;
+        FieldOptions fields;
+        fields.cellGrids = {grid};
+        fields.minDihedral = true;
+        FieldSampler sampler(sink, fields);
+        Options options;
+        options.grade = grade;
+        volumeToTets(*levelSet(sphere({0.1, 0.2, 0.3}, 6)), sampler, options);
+        REQUIRE(sink.totals.pointFields.empty());
+        REQUIRE(sink.totals.cellFields.size() == 2);
+        CHECK(sink.totals.cellFields[1].name == "min_dihedral");
+        REQUIRE(sink.cells[0].size() == 3 * sink.mesh.tets.size());
+        REQUIRE(sink.cells[1].size() == sink.mesh.tets.size());
+        double farthest = 0, least = 180;
+        for (std::size_t t = 0; t < sink.mesh.tets.size(); ++t) {
+            Vec3d centroid(0.0);
+            for (const std::int64_t id : sink.mesh.tets[t])
+                centroid += 0.25 * sink.mesh.points[std::size_t(id)];
+            const double expected[] = {function(centroid), centroid.x(), centroid.z()};
+            for (std::size_t c = 0; c < 3; ++c)
+                farthest = std::max(farthest, std::abs(double(sink.cells[0][3 * t + c]) - expected[c]));
+            least = std::min(least, double(sink.cells[1][t]));
+        }
+        CHECK(farthest < 3e-6);
+        CHECK(least == Approx(examine(sink.mesh).minAngle).epsilon(1e-5));
+    }
+}
+
+TEST_CASE("the boundary flag is set at the corners of boundary triangles", "[fields]") {
+    const auto grid = filled<openvdb::FloatGrid>([](const openvdb::Coord& at) { return float(at.x()); });
+    FieldOptions fields;
+    fields.pointGrids = {grid};
+    fields.boundaryFlag = true;
+    for (const bool grade : {false, true}) {
+        for (const bool resolved : {true, false}) {
+            FieldsSink sink;
+            FieldSampler sampler(sink, fields);
+            Options options;
+            options.grade = grade;
+            volumeToTets(*(resolved ? levelSet(torus({0.3, 0.2, 0.1}, 25, 12)) : randomSigns(24, 7)), sampler,
+                         options);
+            REQUIRE(sink.totals.pointFields.size() == 2);
+            CHECK(sink.totals.pointFields[1].name == "boundary");
+            std::set<std::array<double, 3>> flagged, corners;
+            for (std::size_t i = 0; i < sink.mesh.points.size(); ++i) {
+                const Vec3d& p = sink.mesh.points[i];
+                const float flag = sink.points[1][i];
+                REQUIRE((flag == 0.0f || flag == 1.0f));
+                if (flag == 1.0f) flagged.insert({p.x(), p.y(), p.z()});
+            }
+            for (const Corners& triangle : boundaryOf(sink.mesh))
+                for (const auto& corner : triangle) corners.insert(corner);
+            REQUIRE_FALSE(corners.empty());
+            CHECK(std::includes(flagged.begin(), flagged.end(), corners.begin(), corners.end()));
+            // A single vertex outside may have become a point on the surface amidst tets.
+            if (resolved) CHECK(flagged.size() == corners.size());
+        }
+    }
+}
+
 TEST_CASE("sampling leaves the mesh as it is", "[fields]") {
     const auto grid = filled<openvdb::FloatGrid>([](const openvdb::Coord& at) { return float(at.x()); });
     requireIdentical(sampled(grid).mesh, meshOf(*levelSet(sphere({0.1, 0.2, 0.3}, 6))).mesh);
@@ -124,6 +222,15 @@ TEST_CASE("fields have names of their own", "[fields]") {
     CHECK(sink.totals.pointFields[0].name == "field");
     CHECK(sink.totals.pointFields[1].name == "field_");
     CHECK(sink.totals.pointFields[2].name == "field__");
+
+    const auto boundary = grid->deepCopy();
+    boundary->setName("boundary");
+    FieldsSink more;
+    FieldSampler flagging(more, FieldOptions{{boundary}, {grid}, true, false});
+    flagging.begin(MeshTotals());
+    REQUIRE(more.totals.pointFields.size() == 2);
+    CHECK(more.totals.pointFields[1].name == "boundary_");
+    CHECK(more.totals.cellFields.at(0).name == "field");
 }
 
 TEST_CASE("grids that cannot be sampled are refused", "[fields]") {

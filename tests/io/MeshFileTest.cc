@@ -31,8 +31,21 @@ MeshTotals totalsOf(std::int64_t tets, bool float32) {
     return totals;
 }
 
-/// Hand the tets [firstTet, firstTet + tets) to a sink.
-void give(MeshSink& sink, std::int64_t firstTet, std::int64_t tets) {
+/// With fields of both numbers of components at the points and in the tets.
+MeshTotals withFields(MeshTotals totals) {
+    totals.pointFields = {{"heat", 1}, {"vel", 3}};
+    totals.cellFields = {{"vel", 3}, {"heat", 1}};
+    return totals;
+}
+
+std::vector<float> valuesFrom(std::int64_t first, std::int64_t count) {
+    std::vector<float> values;
+    for (std::int64_t i = first; i < first + count; ++i) values.push_back(-1.0f / float(i + 1));
+    return values;
+}
+
+/// Hand the tets [firstTet, firstTet + tets) to a sink, with the fields if asked.
+void give(MeshSink& sink, std::int64_t firstTet, std::int64_t tets, bool fields = false) {
     std::vector<openvdb::Vec3d> points;
     std::vector<Tet> ids;
     for (std::int64_t i = firstTet; i < firstTet + tets; ++i) {
@@ -48,6 +61,18 @@ void give(MeshSink& sink, std::int64_t firstTet, std::int64_t tets) {
     chunk.firstPoint = 4 * firstTet;
     chunk.points = {points.data(), points.size()};
     chunk.tets = {ids.data(), ids.size()};
+    std::vector<std::vector<float>> values;
+    if (fields) {
+        for (const int components : {1, 3}) {
+            values.push_back(
+                valuesFrom(components * chunk.firstPoint, components * std::int64_t(points.size())));
+            chunk.pointFields.emplace_back(values.back().data(), values.back().size());
+        }
+        for (const int components : {3, 1}) {
+            values.push_back(valuesFrom(components * firstTet, components * tets));
+            chunk.cellFields.emplace_back(values.back().data(), values.back().size());
+        }
+    }
     sink.chunk(chunk);
 }
 
@@ -73,7 +98,7 @@ std::map<std::string, std::string> filesOf(const std::string& format, const Mesh
         for (std::size_t i = 0; i < ends.size(); ++i) {
             const std::size_t k = backwards ? ends.size() - 1 - i : i;
             const std::int64_t begin = k == 0 ? 0 : ends[k - 1];
-            give(writer, begin, ends[k] - begin);
+            give(writer, begin, ends[k] - begin, !totals.pointFields.empty());
         }
         writer.end();
     }
@@ -109,6 +134,55 @@ TEST_CASE("a file of any format does not depend on its chunks and their order") 
             const std::vector<std::int64_t> ends = {1, 2, 3, 3, 300, 301, 998, 999, 1000, 1000};
             CHECK(filesOf(format.name, totals, ends) == whole);
             CHECK(filesOf(format.name, totals, ends, true) == whole);
+        }
+    }
+}
+
+TEST_CASE("fields take the room announced, and do not depend on chunks and their order") {
+    for (const MeshFormat& format : meshFormats()) {
+        CAPTURE(format.name);
+        for (const std::int64_t tets : {1, 2, 3, 1000}) {
+            const MeshTotals totals = withFields(totalsOf(tets, true));
+            if (!format.holdsFields) {
+                CHECK_THROWS_AS(MeshFile::size("mesh", totals, format.name), BadOption);
+                CHECK_THROWS_AS(MeshFile::requireFields(format), BadOption);
+                continue;
+            }
+            const auto whole = filesOf(format.name, totals, {tets});
+            std::uint64_t bytes = 0;
+            for (const auto& [name, content] : whole) bytes += content.size();
+            CHECK(bytes == MeshFile::size("mesh", totals, format.name));
+            CHECK(bytes > MeshFile::size("mesh", totalsOf(tets, true), format.name));
+            std::vector<std::int64_t> ends = {tets / 3, tets / 2, tets / 2 + tets / 7, tets, tets};
+            CHECK(filesOf(format.name, totals, ends) == whole);
+            CHECK(filesOf(format.name, totals, ends, true) == whole);
+        }
+    }
+}
+
+TEST_CASE("a field's tags in msh files are of 32 bits, and larger meshes are refused") {
+    constexpr std::int64_t kMaxInt32 = (std::int64_t(1) << 31) - 1;
+    CHECK_NOTHROW(MeshFile::size("mesh.msh", withFields(counts(kMaxInt32, kMaxInt32))));
+    CHECK_THROWS_AS(MeshFile::size("mesh.msh", withFields(counts(kMaxInt32 + 1, 1))), TooLarge);
+    CHECK_THROWS_AS(MeshFile::size("mesh.msh", withFields(counts(1, kMaxInt32 + 1))), TooLarge);
+}
+
+TEST_CASE("options of USD are refused by other formats") {
+    UsdOptions usd;
+    usd.surface = true;
+    for (const MeshFormat& format : meshFormats()) {
+        CAPTURE(format.name);
+        const TempFolder folder;
+        if (format.takesUsdOptions) {
+            const auto size = [&](const std::optional<UsdOptions>& options) {
+                return MeshFile::size("mesh", totalsOf(3, true), format.name, options);
+            };
+            CHECK(size(usd) > size(UsdOptions()));
+            CHECK(size(UsdOptions()) == size({}));
+        } else {
+            CHECK_THROWS_AS(MeshFile(folder.file("mesh"), format.name, usd), BadOption);
+            CHECK_THROWS_AS(MeshFile::size("mesh", totalsOf(3, true), format.name, usd), BadOption);
+            CHECK(filesIn(folder) == 0);
         }
     }
 }

@@ -4,7 +4,7 @@
 
 #include "io/RecordFile.h"
 
-#include <vdbtet/MeshSink.h>
+#include <vdbtet/MeshFile.h>
 
 #include <cstring>
 #include <deque>
@@ -27,13 +27,10 @@ public:
 
     const std::vector<RecordLayout>& layouts() const { return mLayouts; }
     bool wantsTriangles() const { return mWantsTriangles; }
-    /// Whether MeshTotals::pointFields are written.
-    bool holdsFields() const { return mHoldsFields; }
 
 protected:
     std::vector<RecordLayout> mLayouts;
     bool mWantsTriangles = false;
-    bool mHoldsFields = false;
 };
 
 /// @throw TooLarge where the format cannot hold a mesh of that size
@@ -50,7 +47,7 @@ std::unique_ptr<Format> makeTetGen(const MeshTotals& totals);
 std::unique_ptr<Format> makeNpz(const MeshTotals& totals);
 std::unique_ptr<Format> makeInp(const MeshTotals& totals);
 std::unique_ptr<Format> makeGeo(const MeshTotals& totals);
-std::unique_ptr<Format> makeUsda(const MeshTotals& totals);
+std::unique_ptr<Format> makeUsda(const MeshTotals& totals, const UsdOptions& options);
 
 /// Put numbers into a record, as @a T.
 template <typename T, typename Value>
@@ -61,13 +58,19 @@ void storeAs(char* to, const Value* values, std::size_t count) {
     }
 }
 
-/// Write the values of a field as they are in memory, for a section that has a record for each point.
-inline void putField(RecordFile& file, const RecordLayout::Section& section, std::int64_t firstPoint,
-                     std::size_t points, const ArrayView<float>& values) {
-    const std::size_t components = section.recordBytes / sizeof(float);
-    file.put(section, firstPoint, points, [&](std::size_t i, std::size_t n, char* to) {
-        std::memcpy(to, &values[i * components], n * section.recordBytes);
-    });
-}
+/// Where the values of fields go.
+template <typename Place>
+struct FieldPlaces {
+    std::vector<Place> points, cells; ///< by field
+
+    /// Call @a visit(place, first, count, values) for each field, of the records first, first + 1, ...
+    template <typename Visit>
+    void forEach(const MeshChunk& chunk, const Visit& visit) const {
+        for (std::size_t f = 0; f < points.size(); ++f)
+            visit(points[f], chunk.firstPoint, chunk.points.size(), chunk.pointFields[f]);
+        for (std::size_t f = 0; f < cells.size(); ++f)
+            visit(cells[f], chunk.firstTet, chunk.tets.size(), chunk.cellFields[f]);
+    }
+};
 
 } // namespace vdbtet

@@ -5,6 +5,7 @@
 /// $Entities is optional, but the only place for a physical group, and DOLFINx takes no other tets. MuJoCo
 /// wants the single blocks.
 #include "io/formats/Format.h"
+#include "io/formats/GmshFields.h"
 
 #include <initializer_list>
 
@@ -22,6 +23,7 @@ public:
 
 private:
     RecordLayout::Section mPointTags, mPoints, mTets;
+    GmshFields mFields;
 };
 
 Msh::Msh(const MeshTotals& totals) {
@@ -54,6 +56,7 @@ Msh::Msh(const MeshTotals& totals) {
     sizes({totals.tets});
     mTets = layout.records(totals.tets, 5 * 8);
     layout.text("\n$EndElements\n");
+    mFields.layOut(layout, totals, "msh");
     mLayouts.push_back(std::move(layout));
 }
 
@@ -76,6 +79,7 @@ void Msh::write(const MeshChunk& chunk, std::deque<RecordFile>& files) const {
             storeAs<std::uint64_t>(to, row, 5);
         }
     });
+    mFields.put(chunk, file);
 }
 
 } // namespace

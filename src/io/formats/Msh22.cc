@@ -4,6 +4,7 @@
 ///
 /// A header may stand for many tets, but Gmsh writes one for each, and MuJoCo reads no other files.
 #include "io/formats/Format.h"
+#include "io/formats/GmshFields.h"
 
 #include <vdbtet/Errors.h>
 
@@ -25,6 +26,7 @@ public:
 
 private:
     RecordLayout::Section mPoints, mTets;
+    GmshFields mFields;
 };
 
 Msh22::Msh22(const MeshTotals& totals) {
@@ -41,6 +43,7 @@ Msh22::Msh22(const MeshTotals& totals) {
     layout.text("\n$EndNodes\n$Elements\n" + std::to_string(totals.tets) + "\n");
     mTets = layout.records(totals.tets, kTetInts * 4);
     layout.text("\n$EndElements\n");
+    mFields.layOut(layout, totals, "msh22");
     mLayouts.push_back(std::move(layout));
 }
 
@@ -62,6 +65,7 @@ void Msh22::write(const MeshChunk& chunk, std::deque<RecordFile>& files) const {
             storeAs<std::int32_t>(to, ints, kTetInts);
         }
     });
+    mFields.put(chunk, file);
 }
 
 } // namespace

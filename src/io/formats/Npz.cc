@@ -1,6 +1,6 @@
 /// @file Npz.cc
 /// NumPy's .npz: an archive of the arrays `vertices` and `tet_indices`, as Newton and Warp load them, and of
-/// `point_NAME` for each field.
+/// `point_NAME` and `cell_NAME` for each field.
 #include "io/formats/Format.h"
 #include "io/formats/Names.h"
 #include "io/formats/StoredZip.h"
@@ -33,7 +33,7 @@ private:
     bool mFloat32, mInt32;
     StoredZip mZip;
     StoredZip::Entry *mPoints, *mTets;
-    std::vector<StoredZip::Entry*> mFields;
+    FieldPlaces<StoredZip::Entry*> mFields;
 };
 
 Npz::Npz(const MeshTotals& totals)
@@ -45,12 +45,19 @@ Npz::Npz(const MeshTotals& totals)
                            3 * realBytes);
     mTets = &mZip.append(layout, "tet_indices.npy", npyHeader('i', idBytes, totals.tets, 4), totals.tets,
                          4 * idBytes);
-    mHoldsFields = true;
-    for (const MeshField& field : totals.pointFields) {
-        mFields.push_back(&mZip.append(layout, "point_" + fileName(field.name) + ".npy",
-                                       npyHeader('f', 4, totals.points, field.components), totals.points,
-                                       4 * std::size_t(field.components)));
-    }
+    UniqueNames unique;
+    const auto entries = [&](const std::string& prefix, const std::vector<MeshField>& fields,
+                             std::int64_t records) {
+        std::vector<StoredZip::Entry*> places;
+        for (const MeshField& field : fields) {
+            places.push_back(&mZip.append(layout, unique(prefix + fileName(field.name)) + ".npy",
+                                          npyHeader('f', 4, records, field.components), records,
+                                          4 * std::size_t(field.components)));
+        }
+        return places;
+    };
+    mFields.points = entries("point_", totals.pointFields, totals.points);
+    mFields.cells = entries("cell_", totals.cellFields, totals.tets);
     mZip.appendDirectory(layout);
     mLayouts.push_back(std::move(layout));
 }
@@ -66,13 +73,13 @@ void Npz::write(const MeshChunk& chunk, std::deque<RecordFile>& files) const {
             const std::int64_t* from = chunk.tets[i].data();
             mInt32 ? storeAs<std::int32_t>(to, from, 4 * n) : storeAs<std::int64_t>(to, from, 4 * n);
         });
-    for (std::size_t f = 0; f < mFields.size(); ++f) {
-        const std::size_t components = mFields[f]->records.recordBytes / 4;
-        StoredZip::put(files[0], *mFields[f], chunk.firstPoint, chunk.points.size(),
-                       [&](std::size_t i, std::size_t n, char* to) {
-                           storeAs<float>(to, &chunk.pointFields[f][i * components], n * components);
-                       });
-    }
+    mFields.forEach(chunk, [&files](StoredZip::Entry* entry, std::int64_t first, std::size_t count,
+                                    const ArrayView<float>& values) {
+        const std::size_t components = entry->records.recordBytes / 4;
+        StoredZip::put(files[0], *entry, first, count, [&](std::size_t i, std::size_t n, char* to) {
+            storeAs<float>(to, &values[i * components], n * components);
+        });
+    });
 }
 
 } // namespace

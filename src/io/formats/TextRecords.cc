@@ -46,18 +46,6 @@ char* writeReal(char* to, Real value, std::size_t width) {
     return alignRight(to, digits, std::size_t(end - digits), width);
 }
 
-std::int64_t idOf(const openvdb::Vec3d&, std::size_t) { return 0; }
-template <std::size_t N>
-std::int64_t idOf(const std::array<std::int64_t, N>& ids, std::size_t i) {
-    return ids[i];
-}
-
-double coordinateOf(const openvdb::Vec3d& point, std::size_t i) { return point[int(i)]; }
-template <std::size_t N>
-double coordinateOf(const std::array<std::int64_t, N>&, std::size_t) {
-    return 0.0;
-}
-
 } // namespace
 
 TextNumbers::TextNumbers(const MeshTotals& totals, std::int64_t idOfFirst) : firstId(idOfFirst) {
@@ -76,23 +64,28 @@ TextRows::TextRows(RecordLayout& layout, std::int64_t count, const std::string& 
     : mPattern(pattern), mNumbers(numbers) {
     std::size_t bytes = 0;
     for (const char c : pattern)
-        bytes += c == '*' ? numbers.realWidth : c == '#' || c == '@' ? numbers.idWidth : 1;
+        bytes += c == '*'               ? numbers.realWidth
+                 : c == '~'             ? kFloatWidth
+                 : c == '#' || c == '@' ? numbers.idWidth
+                                        : 1;
     mSection = layout.records(count, bytes);
 }
 
-template <typename Row>
-char* TextRows::write(char* to, std::int64_t number, const Row& row) const {
-    std::size_t ids = 0, coordinates = 0;
+char* TextRows::write(char* to, std::int64_t number, const Row& row, const float* values) const {
+    const std::int64_t* id = row.ids;
+    int axis = 0;
     for (const char c : mPattern) {
         if (c == '@') {
             to = writeId(to, mNumbers.firstId + number, mNumbers.idWidth);
         } else if (c == '#') {
-            to = writeId(to, mNumbers.firstId + idOf(row, ids++), mNumbers.idWidth);
+            to = writeId(to, mNumbers.firstId + *id++, mNumbers.idWidth);
         } else if (c == '*') {
-            const double x = coordinateOf(row, coordinates) - mNumbers.origin[int(coordinates)];
-            ++coordinates;
+            const double x = row.coordinates[axis] - mNumbers.origin[axis];
+            ++axis;
             to = mNumbers.float32 ? writeReal(to, float(x), mNumbers.realWidth)
                                   : writeReal(to, x, mNumbers.realWidth);
+        } else if (c == '~') {
+            to = writeReal(to, *values++, kFloatWidth);
         } else {
             *to++ = c;
         }
@@ -100,24 +93,43 @@ char* TextRows::write(char* to, std::int64_t number, const Row& row) const {
     return to;
 }
 
-template <typename Row>
-void TextRows::putRows(RecordFile& file, std::int64_t first, const ArrayView<Row>& rows) const {
-    file.put(mSection, first, rows.size(), [&](std::size_t i, std::size_t n, char* to) {
+template <typename RowAt>
+void TextRows::putRows(RecordFile& file, std::int64_t first, std::size_t count,
+                       const std::vector<ArrayView<float>>& fields, const RowAt& rowAt) const {
+    file.put(mSection, first, count, [&](std::size_t i, std::size_t n, char* to) {
         const bool startsSection = first + std::int64_t(i) == 0;
         char* end = to;
-        for (std::size_t k = i; k < i + n; ++k) end = write(end, first + std::int64_t(k), rows[k]);
+        std::vector<float> values;
+        for (std::size_t k = i; k < i + n; ++k) {
+            values.clear();
+            for (const ArrayView<float>& field : fields) {
+                const std::size_t components = field.size() / count;
+                values.insert(values.end(), &field[k * components], &field[k * components] + components);
+            }
+            end = write(end, first + std::int64_t(k), rowAt(k), values.data());
+        }
         if (startsSection && *to == ',') *to = ' ';
     });
 }
 
-void TextRows::put(RecordFile& file, std::int64_t first, const ArrayView<openvdb::Vec3d>& points) const {
-    putRows(file, first, points);
+void TextRows::put(RecordFile& file, std::int64_t first, const ArrayView<openvdb::Vec3d>& points,
+                   const std::vector<ArrayView<float>>& fields) const {
+    putRows(file, first, points.size(), fields, [&](std::size_t k) {
+        return Row{points[k].asPointer(), nullptr};
+    });
 }
-void TextRows::put(RecordFile& file, std::int64_t first, const ArrayView<Tet>& tets) const {
-    putRows(file, first, tets);
+void TextRows::put(RecordFile& file, std::int64_t first, const ArrayView<Tet>& tets,
+                   const std::vector<ArrayView<float>>& fields) const {
+    putRows(file, first, tets.size(), fields, [&](std::size_t k) { return Row{nullptr, tets[k].data()}; });
 }
 void TextRows::put(RecordFile& file, std::int64_t first, const ArrayView<Triangle>& triangles) const {
-    putRows(file, first, triangles);
+    putRows(file, first, triangles.size(), {}, [&](std::size_t k) {
+        return Row{nullptr, triangles[k].data()};
+    });
+}
+void TextRows::put(RecordFile& file, std::int64_t first, std::size_t count,
+                   const ArrayView<float>& values) const {
+    putRows(file, first, count, {values}, [](std::size_t) { return Row{nullptr, nullptr}; });
 }
 
 template <typename Real>

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace vdbtet {
 
@@ -32,20 +33,29 @@ class TextRows {
 public:
     TextRows() = default;
 
-    /// @param pattern  text where '*' stands for the next coordinate, '#' for the next id and '@' for the id
-    /// of the row itself. A comma in front is left out of the first row.
+    /// @param pattern  text where '*' stands for the next coordinate, '#' for the next id, '@' for the id of
+    /// the row itself and '~' for the next value of a field. A comma in front is left out of the first row.
     TextRows(RecordLayout& layout, std::int64_t count, const std::string& pattern,
              const TextNumbers& numbers);
 
-    void put(RecordFile& file, std::int64_t first, const ArrayView<openvdb::Vec3d>& points) const;
-    void put(RecordFile& file, std::int64_t first, const ArrayView<Tet>& tets) const;
+    void put(RecordFile& file, std::int64_t first, const ArrayView<openvdb::Vec3d>& points,
+             const std::vector<ArrayView<float>>& fields = {}) const;
+    void put(RecordFile& file, std::int64_t first, const ArrayView<Tet>& tets,
+             const std::vector<ArrayView<float>>& fields = {}) const;
     void put(RecordFile& file, std::int64_t first, const ArrayView<Triangle>& triangles) const;
+    /// Rows of one field alone, of which there are @a count.
+    void put(RecordFile& file, std::int64_t first, std::size_t count, const ArrayView<float>& values) const;
 
 private:
-    template <typename Row>
-    void putRows(RecordFile& file, std::int64_t first, const ArrayView<Row>& rows) const;
-    template <typename Row>
-    char* write(char* to, std::int64_t number, const Row& row) const;
+    /// What a row may be made of.
+    struct Row {
+        const double* coordinates;
+        const std::int64_t* ids;
+    };
+    template <typename RowAt>
+    void putRows(RecordFile& file, std::int64_t first, std::size_t count,
+                 const std::vector<ArrayView<float>>& fields, const RowAt& rowAt) const;
+    char* write(char* to, std::int64_t number, const Row& row, const float* values) const;
 
     std::string mPattern;
     TextNumbers mNumbers{MeshTotals(), 0};

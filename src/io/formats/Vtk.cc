@@ -43,7 +43,7 @@ private:
     bool mFloat32, mInt32;
     RecordLayout::Section mPoints, mCells, mTypes;
     RecordLayout::Section mOffsets; ///< in version 5.1
-    std::vector<RecordLayout::Section> mFields;
+    FieldPlaces<RecordLayout::Section> mFields;
 };
 
 Vtk::Vtk(const MeshTotals& totals)
@@ -69,17 +69,22 @@ Vtk::Vtk(const MeshTotals& totals)
     layout.text("\nCELL_TYPES " + tets + "\n");
     mTypes = layout.records(totals.tets, 4);
     layout.text("\n");
-    mHoldsFields = true;
-    if (!totals.pointFields.empty()) {
-        layout.text("POINT_DATA " + points + "\nFIELD FieldData " +
-                    std::to_string(totals.pointFields.size()) + "\n");
-    }
-    for (const MeshField& field : totals.pointFields) {
-        layout.text(percentName(field.name) + " " + std::to_string(field.components) + " " + points +
-                    " float\n");
-        mFields.push_back(layout.records(totals.points, 4 * std::size_t(field.components)));
-        layout.text("\n");
-    }
+    const auto sections = [&layout](const std::string& header, const std::vector<MeshField>& fields,
+                                    std::int64_t records) {
+        std::vector<RecordLayout::Section> places;
+        const std::string count = std::to_string(records);
+        if (!fields.empty())
+            layout.text(header + " " + count + "\nFIELD FieldData " + std::to_string(fields.size()) + "\n");
+        for (const MeshField& field : fields) {
+            layout.text(percentName(field.name) + " " + std::to_string(field.components) + " " + count +
+                        " float\n");
+            places.push_back(layout.records(records, 4 * std::size_t(field.components)));
+            layout.text("\n");
+        }
+        return places;
+    };
+    mFields.points = sections("POINT_DATA", totals.pointFields, totals.points);
+    mFields.cells = sections("CELL_DATA", totals.cellFields, totals.tets);
     mLayouts.push_back(std::move(layout));
 }
 
@@ -111,13 +116,13 @@ void Vtk::write(const MeshChunk& chunk, std::deque<RecordFile>& files) const {
     file.put(mTypes, chunk.firstTet, chunk.tets.size(), [](std::size_t, std::size_t n, char* to) {
         for (std::size_t k = 0; k < n; ++k) storeBigEndianAs<std::int32_t>(to + 4 * k, &kVtkTetra, 1);
     });
-    for (std::size_t f = 0; f < mFields.size(); ++f) {
-        const std::size_t components = mFields[f].recordBytes / 4;
-        file.put(mFields[f], chunk.firstPoint, chunk.points.size(),
-                 [&](std::size_t i, std::size_t n, char* to) {
-                     storeBigEndianAs<float>(to, &chunk.pointFields[f][i * components], n * components);
-                 });
-    }
+    mFields.forEach(chunk, [&file](const RecordLayout::Section& section, std::int64_t first,
+                                   std::size_t count, const ArrayView<float>& values) {
+        const std::size_t components = section.recordBytes / 4;
+        file.put(section, first, count, [&](std::size_t i, std::size_t n, char* to) {
+            storeBigEndianAs<float>(to, &values[i * components], n * components);
+        });
+    });
 }
 
 } // namespace

@@ -31,7 +31,7 @@ public:
 private:
     bool mFloat32, mInt32Connectivity, mInt32Offsets;
     RecordLayout::Section mPoints, mConnectivity, mOffsets, mTypes;
-    std::vector<RecordLayout::Section> mFields;
+    FieldPlaces<RecordLayout::Section> mFields;
 };
 
 Vtu::Vtu(const MeshTotals& totals)
@@ -44,13 +44,17 @@ Vtu::Vtu(const MeshTotals& totals)
     const Block offsets{mInt32Offsets ? "Int32" : "Int64", "offsets", "", totals.tets,
                         std::size_t(mInt32Offsets ? 4 : 8)};
     const Block types{"UInt8", "types", "", totals.tets, 1};
-    std::vector<Block> fields;
-    for (const MeshField& field : totals.pointFields) {
-        fields.push_back({"Float32", xmlName(field.name),
-                          " NumberOfComponents=\"" + std::to_string(field.components) + "\"", totals.points,
-                          4 * std::size_t(field.components)});
-    }
-    mHoldsFields = true;
+    const auto blocksOf = [](const std::vector<MeshField>& fields, std::int64_t records) {
+        std::vector<Block> blocks;
+        for (const MeshField& field : fields) {
+            blocks.push_back({"Float32", xmlName(field.name),
+                              " NumberOfComponents=\"" + std::to_string(field.components) + "\"", records,
+                              4 * std::size_t(field.components)});
+        }
+        return blocks;
+    };
+    const std::vector<Block> pointFields = blocksOf(totals.pointFields, totals.points),
+                             cellFields = blocksOf(totals.cellFields, totals.tets);
 
     std::uint64_t appended = 0;
     const auto array = [&appended](const Block& block) {
@@ -75,9 +79,14 @@ Vtu::Vtu(const MeshTotals& totals)
               "      <Cells>\n";
     for (const Block* block : {&connectivity, &offsets, &types}) header += array(*block);
     header += "      </Cells>\n";
-    if (!fields.empty()) header += "      <PointData>\n";
-    for (const Block& block : fields) header += array(block);
-    if (!fields.empty()) header += "      </PointData>\n";
+    const auto data = [&](const std::string& element, const std::vector<Block>& blocks) {
+        if (blocks.empty()) return;
+        header += "      <" + element + ">\n";
+        for (const Block& block : blocks) header += array(block);
+        header += "      </" + element + ">\n";
+    };
+    data("PointData", pointFields);
+    data("CellData", cellFields);
     header += "    </Piece>\n"
               "  </UnstructuredGrid>\n"
               "  <AppendedData encoding=\"raw\">\n"
@@ -93,7 +102,8 @@ Vtu::Vtu(const MeshTotals& totals)
     mConnectivity = append(connectivity);
     mOffsets = append(offsets);
     mTypes = append(types);
-    for (const Block& block : fields) mFields.push_back(append(block));
+    for (const Block& block : pointFields) mFields.points.push_back(append(block));
+    for (const Block& block : cellFields) mFields.cells.push_back(append(block));
     layout.text("\n  </AppendedData>\n</VTKFile>\n");
     mLayouts.push_back(std::move(layout));
 }
@@ -120,8 +130,13 @@ void Vtu::write(const MeshChunk& chunk, std::deque<RecordFile>& files) const {
     });
     file.put(mTypes, chunk.firstTet, chunk.tets.size(),
              [](std::size_t, std::size_t n, char* to) { std::memset(to, kVtkTetra, n); });
-    for (std::size_t f = 0; f < mFields.size(); ++f)
-        putField(file, mFields[f], chunk.firstPoint, chunk.points.size(), chunk.pointFields[f]);
+    mFields.forEach(chunk, [&file](const RecordLayout::Section& section, std::int64_t first,
+                                   std::size_t count, const ArrayView<float>& values) {
+        const std::size_t components = section.recordBytes / 4;
+        file.put(section, first, count, [&](std::size_t i, std::size_t n, char* to) {
+            storeAs<float>(to, &values[i * components], n * components);
+        });
+    });
 }
 
 } // namespace

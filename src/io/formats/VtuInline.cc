@@ -6,9 +6,12 @@
 /// Int64 here, and no mesh has 2^48 points: these bytes are zeros. The chunk that has the last byte of a
 /// group writes it.
 #include "io/formats/Format.h"
+#include "io/formats/Names.h"
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <mutex>
 
 namespace vdbtet {
 
@@ -23,6 +26,14 @@ void putGroup(char* to, const std::array<std::uint8_t, 3>& bytes, std::size_t co
     for (std::size_t i = 0; i < 4; ++i) to[i] = i <= count ? kDigits[group >> (18 - 6 * i) & 63] : '=';
 }
 
+template <typename Bits, typename T>
+Bits bitsOf(T value) {
+    Bits bits;
+    static_assert(sizeof bits == sizeof value);
+    std::memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
 /// An array of the file.
 struct Block {
     std::uint64_t words = 0;
@@ -31,14 +42,12 @@ struct Block {
     std::uint64_t bytes() const { return words * wordBytes; }
 };
 
-/// Write the words from @a first on; @a word(i) is the bits of word i, or of the one before the first.
+/// Write groups of an array; @a word(i) is the bits of word i.
 template <typename Word>
-void put(RecordFile& file, const Block& block, std::int64_t first, std::size_t count, const Word& word) {
-    if (count == 0) return;
-    const std::uint64_t begin = std::uint64_t(first) * block.wordBytes, end = begin + count * block.wordBytes;
-    const std::uint64_t firstGroup = begin / 3, endGroup = (end == block.bytes() ? end + 2 : end) / 3;
-    const auto encode = [&](std::size_t done, std::size_t n, char* to) {
-        std::uint64_t at = 3 * (firstGroup + done);
+void putGroups(RecordFile& file, const Block& block, std::uint64_t first, std::uint64_t end,
+               const Word& word) {
+    file.put(block.groups, std::int64_t(first), end - first, [&](std::size_t done, std::size_t n, char* to) {
+        std::uint64_t at = 3 * (first + done);
         for (std::size_t i = 0; i < n; ++i, at += 3) {
             const std::size_t some = std::min<std::uint64_t>(3, block.bytes() - at);
             std::array<std::uint8_t, 3> bytes{};
@@ -48,17 +57,72 @@ void put(RecordFile& file, const Block& block, std::int64_t first, std::size_t c
             }
             putGroup(to + 4 * i, bytes, some);
         }
-    };
-    file.put(block.groups, std::int64_t(firstGroup), endGroup - firstGroup, encode);
+    });
 }
 
-template <typename Bits, typename T>
-Bits bitsOf(T value) {
-    Bits bits;
-    static_assert(sizeof bits == sizeof value);
-    std::memcpy(&bits, &value, sizeof bits);
-    return bits;
+/// The end of the groups that have their last byte before byte @a end.
+std::uint64_t groupsBefore(const Block& block, std::uint64_t end) {
+    return (end == block.bytes() ? end + 2 : end) / 3;
 }
+
+/// Write the words from @a first on; @a word(i) is the bits of word i, or of the one before the first.
+template <typename Word>
+void put(RecordFile& file, const Block& block, std::int64_t first, std::size_t count, const Word& word) {
+    if (count == 0) return;
+    const std::uint64_t begin = std::uint64_t(first) * block.wordBytes, end = begin + count * block.wordBytes;
+    putGroups(file, block, begin / 3, groupsBefore(block, end), word);
+}
+
+/// @brief The array of a field.
+/// @details Here nothing is known of the value before a chunk. The groups that two chunks share wait for
+/// their other part; the chunk that brings it writes them.
+class FieldBlock {
+public:
+    explicit FieldBlock(const Block& block) : mBlock(block), mShared(std::make_unique<Shared>()) {}
+
+    void put(RecordFile& file, std::int64_t firstRecord, std::size_t records,
+             const ArrayView<float>& values) const {
+        if (records == 0) return;
+        const std::int64_t first = firstRecord * std::int64_t(values.size() / records);
+        const auto word = [&](std::int64_t i) {
+            return bitsOf<std::uint32_t>(values[std::size_t(i - first)]);
+        };
+        const std::uint64_t begin = std::uint64_t(first) * 4, end = begin + values.size() * 4;
+        putGroups(file, mBlock, (begin + 2) / 3, groupsBefore(mBlock, end), word);
+        for (const std::uint64_t at : {begin, end}) {
+            if (at % 3 == 0 || at == mBlock.bytes()) continue;
+            std::array<std::uint8_t, 3> part{};
+            for (std::uint64_t k = 0; k < 3; ++k) {
+                const std::uint64_t byte = at / 3 * 3 + k;
+                if (byte >= begin && byte < end)
+                    part[k] = std::uint8_t(word(std::int64_t(byte / 4)) >> (8 * (byte % 4)));
+            }
+            putPart(file, at / 3, part);
+        }
+    }
+
+private:
+    using Bytes = std::array<std::uint8_t, 3>;
+    struct Shared {
+        std::mutex mutex;
+        std::map<std::uint64_t, Bytes> parts; ///< by group; the bytes not there yet are 0
+    };
+
+    void putPart(RecordFile& file, std::uint64_t group, Bytes part) const {
+        {
+            const std::lock_guard<std::mutex> lock(mShared->mutex);
+            const auto [other, isFirst] = mShared->parts.emplace(group, part);
+            if (isFirst) return;
+            for (std::size_t k = 0; k < 3; ++k) part[k] |= other->second[k];
+            mShared->parts.erase(other);
+        }
+        file.put(mBlock.groups, std::int64_t(group), 1,
+                 [&](std::size_t, std::size_t, char* to) { putGroup(to, part, 3); });
+    }
+
+    Block mBlock;
+    std::unique_ptr<Shared> mShared;
+};
 
 class VtuInline final : public Format {
 public:
@@ -69,6 +133,7 @@ public:
 private:
     bool mFloat32;
     Block mPoints, mConnectivity, mOffsets, mTypes;
+    FieldPlaces<FieldBlock> mFields;
 };
 
 VtuInline::VtuInline(const MeshTotals& totals) : mFloat32(totals.float32Suffices) {
@@ -103,8 +168,26 @@ VtuInline::VtuInline(const MeshTotals& totals) : mFloat32(totals.float32Suffices
     mConnectivity = array("type=\"Int64\" Name=\"connectivity\"", 4 * totals.tets, 8);
     mOffsets = array("type=\"Int64\" Name=\"offsets\"", totals.tets, 8);
     mTypes = array("type=\"UInt8\" Name=\"types\"", totals.tets, 1);
-    layout.text("      </Cells>\n"
-                "    </Piece>\n"
+    layout.text("      </Cells>\n");
+    const auto data = [&](const std::string& element, const std::vector<MeshField>& fields,
+                          std::int64_t records) {
+        std::vector<FieldBlock> places;
+        if (fields.empty()) return places;
+        layout.text("      <" + element + ">\n");
+        for (const MeshField& field : fields) {
+            // To meshio a scalar that says so is a vector of one component.
+            const std::string components =
+                field.components == 1 ? ""
+                                      : " NumberOfComponents=\"" + std::to_string(field.components) + "\"";
+            places.emplace_back(array("type=\"Float32\" Name=\"" + xmlName(field.name) + "\"" + components,
+                                      records * field.components, 4));
+        }
+        layout.text("      </" + element + ">\n");
+        return places;
+    };
+    mFields.points = data("PointData", totals.pointFields, totals.points);
+    mFields.cells = data("CellData", totals.cellFields, totals.tets);
+    layout.text("    </Piece>\n"
                 "  </UnstructuredGrid>\n"
                 "</VTKFile>\n");
     mLayouts.push_back(std::move(layout));
@@ -123,6 +206,9 @@ void VtuInline::write(const MeshChunk& chunk, std::deque<RecordFile>& files) con
     put(file, mOffsets, chunk.firstTet, chunk.tets.size(),
         [](std::int64_t i) { return std::uint64_t(4 * (i + 1)); });
     put(file, mTypes, chunk.firstTet, chunk.tets.size(), [](std::int64_t) { return kVtkTetra; });
+    mFields.forEach(chunk,
+                    [&file](const FieldBlock& block, std::int64_t first, std::size_t count,
+                            const ArrayView<float>& values) { block.put(file, first, count, values); });
 }
 
 } // namespace
