@@ -45,9 +45,9 @@ std::string isPositive(const std::string& text) {
 void check(const CommandLine& line) {
     if (line.out.empty() && !line.dryRun) throw UsageError("OUT is missing; --help lists the options");
     if (!line.out.empty() || !line.format.empty()) {
-        const vdbtet::MeshFormat& format = vdbtet::MeshFile::formatOf(line.out, line.format); // or it throws
+        const vdbtet::MeshFormat& format =
+            vdbtet::MeshFile::formatOf(line.out, line.format, line.formatOptions); // or it throws
         if (line.hasFields()) vdbtet::MeshFile::requireFields(format);
-        if (line.usd) vdbtet::MeshFile::requireUsd(format);
     }
     if (!line.fieldsFrom.empty() && line.sample.empty() && line.sampleCells.empty())
         throw UsageError("--fields-from is for --sample and --sample-cells, and neither is given");
@@ -79,6 +79,9 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
     app.add_option("--format", line.format, "Format of OUT. Default: by its extension")
         ->check(CLI::IsMember(formats).description(""))
         ->type_name(fmt::format("{}", fmt::join(formats, "|")));
+    app.add_flag("--compress{1}", line.formatOptions.compression,
+                 "Compress OUT, a .vtu or .vtkhdf; --compress=LEVEL for 1, fast and the default, to 9, small")
+        ->check(CLI::Range(1, 9).description(""));
     app.add_option("--surface", line.surface, "Write the boundary, too: .obj, .ply or .stl")
         ->type_name("FILE");
     app.add_option("-n,--name", line.name,
@@ -192,7 +195,7 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
         throw UsageError(error.what());
     }
     line.distance = distance->count() > 0;
-    if (upAxis->count() + metersPerUnit->count() + usdSurface->count() > 0) line.usd = usd;
+    if (upAxis->count() + metersPerUnit->count() + usdSurface->count() > 0) line.formatOptions.usd = usd;
     check(line);
     return line;
 }

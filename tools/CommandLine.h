@@ -19,6 +19,7 @@ struct CommandLine {
     std::string in;
     std::string out;                      ///< may be empty in a dry run
     std::string format;                   ///< of OUT; empty: by its extension
+    vdbtet::FormatOptions formatOptions;
     std::string surface;                  ///< where to write the boundary; empty: nowhere
     std::string name;                     ///< of the grid; empty: the only one
     std::vector<std::string> sample;      ///< grids whose values the points carry; "all" for all others
@@ -27,8 +28,7 @@ struct CommandLine {
     bool boundaryFlag = false, minDihedral = false, distance = false; ///< fields of the mesh itself
     std::optional<double> distanceWidth;
     double scale = 1.0;
-    std::optional<vdbtet::UsdOptions> usd; ///< where any of them is given
-    std::string report;                    ///< JSON file; empty: none
+    std::string report; ///< JSON file; empty: none
     vdbtet::Options options;
     int threads = 0; ///< 0: all
     bool quiet = false;

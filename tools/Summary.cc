@@ -57,7 +57,8 @@ std::string asText(const CommandLine& line, const Summary& summary) {
     add("seconds", fmt::format("{}total {:.3f}", stages, summary.seconds));
     const std::string size = fmt::format("{} ({} bytes)", humanSize(summary.bytes), summary.bytes);
     if (line.dryRun) {
-        add("output", fmt::format("none, as this is a dry run; it would take {}", size));
+        add("output", fmt::format("none, as this is a dry run; it would take {}{}",
+                                  line.formatOptions.compression > 0 ? "at most " : "", size));
     } else {
         add("output", fmt::format("{}, {}", line.out, size));
     }
@@ -74,7 +75,7 @@ std::string asJson(const CommandLine& line, const Summary& summary) {
         {"openvdb", OPENVDB_LIBRARY_VERSION_STRING},
         {"input", line.in},
         {"output", line.dryRun ? nlohmann::ordered_json() : nlohmann::ordered_json(line.out)},
-        {"bytes", summary.bytes},
+        {line.dryRun && line.formatOptions.compression > 0 ? "bytesAtMost" : "bytes", summary.bytes},
         {"scale", line.scale},
         {"gridName", r.gridName},
         {"gridType", summary.gridType},

@@ -5,13 +5,13 @@
 # usage: tools/install_deps.sh [--tests] [--bench] [--ci]
 set -eu
 
-packages="g++ cmake ninja-build libopenvdb-dev libtbb-dev libblosc-dev zlib1g-dev libboost-iostreams-dev
+packages="g++ cmake ninja-build libopenvdb-dev libtbb-dev libblosc-dev zlib1g-dev libhdf5-dev libboost-iostreams-dev
     libcli11-dev libfmt-dev nlohmann-json3-dev"
 for option in "$@"; do
     case $option in
     --tests) packages="$packages catch2 python3" ;;
     --bench) packages="$packages libbenchmark-dev python3" ;;
-    --ci) packages="$packages clang-format-14 python3-vtk9 python3-meshio python3-gmsh tetgen" ;;
+    --ci) packages="$packages clang-format-14 python3-vtk9 python3-h5py python3-meshio python3-gmsh tetgen" ;;
     *) echo "usage: tools/install_deps.sh [--tests] [--bench] [--ci]" >&2 && exit 2 ;;
     esac
 done

@@ -34,15 +34,16 @@ double secondsSince(Clock::time_point start) {
 
 /// Passes a mesh on to its files, or its totals to nobody in a dry run.
 struct Output final : vdbtet::MeshSink {
-    explicit Output(const CommandLine& line) : path(line.out), format(line.format), usd(line.usd) {
+    explicit Output(const CommandLine& line)
+        : path(line.out), format(line.format), options(line.formatOptions) {
         if (path.empty()) path = "mesh.vtu"; // of what size would it be?
         if (line.dryRun) return;
-        file = std::make_unique<vdbtet::MeshFile>(path, format, usd);
+        file = std::make_unique<vdbtet::MeshFile>(path, format, options);
         if (!line.surface.empty()) surface = std::make_unique<vdbtet::SurfaceFile>(line.surface);
     }
 
     bool begin(const vdbtet::MeshTotals& totals) override {
-        bytes = vdbtet::MeshFile::size(path, totals, format, usd);
+        bytes = vdbtet::MeshFile::size(path, totals, format, options);
         if (surface) surface->begin(totals);
         return file && file->begin(totals);
     }
@@ -52,7 +53,9 @@ struct Output final : vdbtet::MeshSink {
     }
     void end() override {
         if (surface) surface->end();
-        if (file) file->end();
+        if (!file) return;
+        file->end();
+        bytes = file->bytes();
     }
     bool concurrent() const override { return file && file->concurrent(); }
     vdbtet::MeshWants wants() const override {
@@ -62,7 +65,7 @@ struct Output final : vdbtet::MeshSink {
     }
 
     std::string path, format;
-    std::optional<vdbtet::UsdOptions> usd;
+    vdbtet::FormatOptions options;
     std::unique_ptr<vdbtet::MeshFile> file;
     std::unique_ptr<vdbtet::SurfaceFile> surface; ///< or null
     std::uint64_t bytes = 0;

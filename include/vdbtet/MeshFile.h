@@ -19,6 +19,7 @@ struct MeshFormat {
     std::string description;
     bool holdsFields = true;      ///< values at points and in tets
     bool takesUsdOptions = false; ///< states what UsdOptions have
+    bool compresses = false;      ///< if asked to
 };
 
 /// All of them.
@@ -34,20 +35,26 @@ struct UsdOptions {
     bool surface = false;
 };
 
+/// What some formats take, and others refuse.
+struct FormatOptions {
+    int compression = 0; ///< level of zlib's, from 1, fast, to 9, small; 0 for none
+    std::optional<UsdOptions> usd = std::nullopt;
+};
+
 /// @brief Writes a mesh into a file, or a few files that belong together.
 /// @details A file is written beside its target under a temporary name and renamed by end(), so the target is
-/// always either the old file or the whole new one. Coordinates are world space, and float64, or float32
-/// where MeshTotals::float32Suffices and the format is used with either; texts have the digits that these
-/// need. Every member throws FileError when a file cannot be written, and begin() throws TooLarge when the
-/// format cannot hold so large a mesh, and BadOption when there are fields and it cannot hold them.
+/// always either the old file or the whole new one. Several threads write at once; into compressed files
+/// chunks come in order, and several threads compress them. Coordinates are world space, and float64, or
+/// float32 where MeshTotals::float32Suffices and the format is used with either; texts have the digits that
+/// these need. Every member throws FileError when a file cannot be written, and begin() throws TooLarge when
+/// the format cannot hold so large a mesh, and BadOption when there are fields and it cannot hold them.
 class MeshFile final : public MeshSink {
 public:
     /// @param path    with an extension that tells the format, unless @a format does
     /// @param format  name of a format; default: by the extension
-    /// @param usd     for formats that take them
-    /// @throw BadOption where there is no such format, or it takes no UsdOptions
+    /// @throw BadOption where there is no such format, or it does not take the options
     explicit MeshFile(const std::string& path, const std::string& format = {},
-                      const std::optional<UsdOptions>& usd = {});
+                      const FormatOptions& options = {});
     ~MeshFile() override;
 
     bool begin(const MeshTotals& totals) override;
@@ -58,17 +65,20 @@ public:
 
     /// @return the format of files like @a path
     /// @throw BadOption as above
-    static const MeshFormat& formatOf(const std::string& path, const std::string& format = {});
+    static const MeshFormat& formatOf(const std::string& path, const std::string& format = {},
+                                      const FormatOptions& options = {});
 
-    /// @throw BadOption where it does not hold fields, as begin() does, or takes no UsdOptions: for those who
-    /// ask before the work
+    /// @throw BadOption where it does not hold fields, as begin() does: for those who ask before the work
     static void requireFields(const MeshFormat& format);
-    static void requireUsd(const MeshFormat& format);
 
-    /// @return the exact size in bytes of what a mesh of @a totals takes in files like @a path.
+    /// @return the exact size in bytes of what a mesh of @a totals takes in files like @a path; of compressed
+    /// ones, the size that they do not exceed
     /// @throw BadOption, TooLarge as above
     static std::uint64_t size(const std::string& path, const MeshTotals& totals,
-                              const std::string& format = {}, const std::optional<UsdOptions>& usd = {});
+                              const std::string& format = {}, const FormatOptions& options = {});
+
+    /// @return the size in bytes of what end() has written
+    std::uint64_t bytes() const;
 
 private:
     struct Impl;

@@ -4,6 +4,7 @@
 
 #include <vdbtet/Errors.h>
 
+#include "io/formats/CompressedFormat.h"
 #include "io/formats/Format.h"
 
 #include <atomic>
@@ -19,12 +20,21 @@ struct Known {
     /// What takes the place of the extension in the names of the files; empty for a single file of the
     /// target's own name.
     std::vector<std::string> files;
+    /// Null where the format is never compressed.
+    MakeCompressed makeCompressed = nullptr;
 };
 
 const std::vector<Known>& known() {
     static const std::vector<Known> kKnown = {
-        {{"vtu", {".vtu"}, "VTK XML unstructured grid, raw appended"}, makeVtu, {}},
+        {{"vtu", {".vtu"}, "VTK XML unstructured grid, raw appended", true, false, true},
+         makeVtu,
+         {},
+         makeVtuCompressed},
         {{"vtu-inline", {}, "VTK XML unstructured grid, inline base64"}, makeVtuInline, {}},
+        {{"vtkhdf", {".vtkhdf"}, "VTKHDF unstructured grid", true, false, true},
+         makeVtkHdf,
+         {},
+         makeVtkHdfCompressed},
         {{"vtk", {".vtk"}, "legacy VTK, binary"}, makeVtk, {}},
         {{"msh", {".msh"}, "Gmsh MSH 4.1, binary"}, makeMsh, {}},
         {{"msh22", {}, "Gmsh MSH 2.2, binary"}, makeMsh22, {}},
@@ -41,10 +51,18 @@ const std::vector<Known>& known() {
     return kKnown;
 }
 
-std::string listOf(const std::vector<Known>& all) {
+/// The names of those that @a choose chooses.
+template <typename Choose>
+std::string listOf(const Choose& choose) {
     std::string list;
-    for (const Known& one : all) list += (list.empty() ? "" : ", ") + one.format.name;
+    for (const Known& one : known()) {
+        if (choose(one)) list += (list.empty() ? "" : ", ") + one.format.name;
+    }
     return list;
+}
+
+std::string listOfAll() {
+    return listOf([](const Known&) { return true; });
 }
 
 const Known& find(const std::string& path, const std::string& name) {
@@ -56,8 +74,30 @@ const Known& find(const std::string& path, const std::string& name) {
                               : one.format.name == name;
         if (fits) return one;
     }
-    if (!name.empty()) throw BadOption("no format is called '" + name + "'; there are " + listOf(known()));
-    throw BadOption("cannot tell the format of " + path + " by its extension; there are " + listOf(known()));
+    if (!name.empty()) throw BadOption("no format is called '" + name + "'; there are " + listOfAll());
+    throw BadOption("cannot tell the format of " + path + " by its extension; there are " + listOfAll());
+}
+
+/// Find a format that takes the options.
+const Known& find(const std::string& path, const std::string& name, const FormatOptions& options) {
+    const Known& one = find(path, name);
+    if (options.compression < 0 || options.compression > 9) {
+        throw BadOption("levels of compression are 1 to 9, not " + std::to_string(options.compression));
+    }
+    if (options.compression > 0 && !one.format.compresses) {
+        throw BadOption("the format " + one.format.name +
+                        " is written without compression; those with it are " +
+                        listOf([](const Known& other) { return other.format.compresses; }));
+    }
+    if (options.usd && !one.format.takesUsdOptions) {
+        throw BadOption("the format " + one.format.name +
+                        " states no up axis and no unit, and has no prims; usda does");
+    }
+    return one;
+}
+
+void checkFields(const Known& one, const MeshTotals& totals) {
+    if (!totals.pointFields.empty() || !totals.cellFields.empty()) MeshFile::requireFields(one.format);
 }
 
 std::vector<std::string> pathsOf(const std::string& path, const Known& one) {
@@ -69,11 +109,14 @@ std::vector<std::string> pathsOf(const std::string& path, const Known& one) {
 }
 
 /// Lay a mesh out.
-std::unique_ptr<const Format> makeFormat(const Known& one, const MeshTotals& totals,
-                                         const std::optional<UsdOptions>& usd) {
-    if (!totals.pointFields.empty() || !totals.cellFields.empty()) MeshFile::requireFields(one.format);
-    if (usd) MeshFile::requireUsd(one.format);
-    return one.make ? one.make(totals) : makeUsda(totals, usd.value_or(UsdOptions()));
+std::unique_ptr<const Format> makeFormat(const std::string& path, const Known& one, const MeshTotals& totals,
+                                         const FormatOptions& options) {
+    try {
+        return one.make ? one.make(totals) : makeUsda(totals, options.usd.value_or(UsdOptions()));
+    } catch (FileError& error) { // of a library, which knows no path
+        error.prefix(path);
+        throw;
+    }
 }
 
 } // namespace
@@ -88,31 +131,41 @@ const std::vector<MeshFormat>& meshFormats() {
 }
 
 struct MeshFile::Impl {
-    Impl(const std::string& target, const Known& one, const std::optional<UsdOptions>& usdOptions)
-        : path(target), known(one), usd(usdOptions) {
-        if (usd) requireUsd(one.format);
+    Impl(const std::string& target, const Known& one, const FormatOptions& with)
+        : path(target), known(one), options(with) {
         for (const std::string& name : pathsOf(target, one)) files.emplace_back(name);
     }
 
     std::string path;
     const Known& known;
-    std::optional<UsdOptions> usd;
+    FormatOptions options;
     std::deque<RecordFile> files;
     MeshTotals totals;
-    std::unique_ptr<const Format> format;
+    std::unique_ptr<const Format> format;         ///< without compression; the other one with it
+    std::unique_ptr<CompressedFormat> compressed; ///< refers to the file
+    std::uint64_t bytes = 0;
     std::atomic<std::int64_t> points{0}, tets{0}, triangles{0}; ///< written
 };
 
-MeshFile::MeshFile(const std::string& path, const std::string& format, const std::optional<UsdOptions>& usd)
-    : mImpl(std::make_unique<Impl>(path, find(path, format), usd)) {}
+MeshFile::MeshFile(const std::string& path, const std::string& format, const FormatOptions& options)
+    : mImpl(std::make_unique<Impl>(path, find(path, format, options), options)) {}
 
 MeshFile::~MeshFile() = default;
 
 bool MeshFile::begin(const MeshTotals& totals) {
-    mImpl->totals = totals;
-    mImpl->format = makeFormat(mImpl->known, totals, mImpl->usd);
-    const auto& layouts = mImpl->format->layouts();
-    for (std::size_t i = 0; i < layouts.size(); ++i) mImpl->files[i].start(layouts[i]);
+    Impl& impl = *mImpl;
+    checkFields(impl.known, totals);
+    impl.totals = totals;
+    if (impl.options.compression > 0) {
+        impl.compressed = impl.known.makeCompressed(impl.files[0].file(), totals, impl.options.compression);
+        return true;
+    }
+    impl.format = makeFormat(impl.path, impl.known, totals, impl.options);
+    const auto& layouts = impl.format->layouts();
+    for (std::size_t i = 0; i < layouts.size(); ++i) {
+        impl.files[i].start(layouts[i]);
+        impl.bytes += layouts[i].size();
+    }
     return true;
 }
 
@@ -124,23 +177,27 @@ void MeshFile::chunk(const MeshChunk& chunk) {
         chunk.firstTriangle + triangles > impl.totals.triangles) {
         throw FileError("cannot write " + impl.path + ": the mesh is larger than announced");
     }
-    impl.format->write(chunk, impl.files);
+    impl.compressed ? impl.compressed->write(chunk) : impl.format->write(chunk, impl.files);
     impl.points += points;
     impl.tets += tets;
     impl.triangles += triangles;
 }
 
 void MeshFile::end() {
-    const Impl& impl = *mImpl;
+    Impl& impl = *mImpl;
     if (impl.points != impl.totals.points || impl.tets != impl.totals.tets ||
-        (impl.format->wantsTriangles() && impl.triangles != impl.totals.triangles)) {
+        (wants().triangles && impl.triangles != impl.totals.triangles)) {
         throw FileError("cannot write " + impl.path + ": the mesh is smaller than announced");
     }
-    impl.format->finish(mImpl->files);
-    for (RecordFile& file : mImpl->files) file.commit();
+    if (impl.compressed) {
+        impl.bytes = impl.compressed->finish();
+    } else {
+        impl.format->finish(impl.files);
+    }
+    for (RecordFile& file : impl.files) file.commit();
 }
 
-bool MeshFile::concurrent() const { return true; }
+bool MeshFile::concurrent() const { return mImpl->options.compression == 0; }
 
 MeshWants MeshFile::wants() const {
     MeshWants wants;
@@ -148,32 +205,27 @@ MeshWants MeshFile::wants() const {
     return wants;
 }
 
-const MeshFormat& MeshFile::formatOf(const std::string& path, const std::string& format) {
-    return find(path, format).format;
+const MeshFormat& MeshFile::formatOf(const std::string& path, const std::string& format,
+                                     const FormatOptions& options) {
+    return find(path, format, options).format;
 }
 
 void MeshFile::requireFields(const MeshFormat& format) {
     if (format.holdsFields) return;
-    std::string others;
-    for (const MeshFormat& one : meshFormats()) {
-        if (one.holdsFields) others += (others.empty() ? "" : ", ") + one.name;
-    }
     throw BadOption("the format " + format.name + " is written without fields; those with fields are " +
-                    others);
-}
-
-void MeshFile::requireUsd(const MeshFormat& format) {
-    if (!format.takesUsdOptions)
-        throw BadOption("the format " + format.name +
-                        " states no up axis and no unit, and has no prims; usda does");
+                    listOf([](const Known& one) { return one.format.holdsFields; }));
 }
 
 std::uint64_t MeshFile::size(const std::string& path, const MeshTotals& totals, const std::string& format,
-                             const std::optional<UsdOptions>& usd) {
-    const std::unique_ptr<const Format> made = makeFormat(find(path, format), totals, usd);
+                             const FormatOptions& options) {
+    const Known& one = find(path, format, options);
+    checkFields(one, totals);
+    const std::unique_ptr<const Format> made = makeFormat(path, one, totals, options);
     std::uint64_t bytes = 0;
     for (const RecordLayout& layout : made->layouts()) bytes += layout.size();
-    return bytes;
+    return options.compression > 0 ? CompressedFormat::mostBytes(bytes, totals) : bytes;
 }
+
+std::uint64_t MeshFile::bytes() const { return mImpl->bytes; }
 
 } // namespace vdbtet

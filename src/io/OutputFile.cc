@@ -8,10 +8,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <vector>
 
 namespace vdbtet {
 
@@ -30,6 +32,48 @@ std::filesystem::path followLinks(std::filesystem::path path) {
     throw FileError("cannot write " + path.string() + ": " + std::strerror(ELOOP));
 }
 
+/// Make a file of a name that is not taken.
+/// @return its descriptor, or -1 and errno
+int makeTemporary(const std::string& target, std::string& path) {
+    const auto directory = std::filesystem::path(target).parent_path();
+    for (int attempt = 0;; ++attempt) {
+        // Not derived from the target's name, which may be as long as a name can be.
+        const auto name = ".vdbtet-" + std::to_string(::getpid()) + "-" + std::to_string(attempt) + ".tmp";
+        path = directory / name;
+        const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (fd >= 0 || errno != EEXIST) return fd;
+    }
+}
+
+/// @return 0 or the error's number
+int writeAll(int fd, std::uint64_t offset, const void* data, std::size_t size) {
+    const auto* bytes = static_cast<const char*>(data);
+    while (size > 0) {
+        const ssize_t written = ::pwrite(fd, bytes, size, static_cast<off_t>(offset));
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) return errno;
+        bytes += written;
+        offset += static_cast<std::uint64_t>(written);
+        size -= static_cast<std::size_t>(written);
+    }
+    return 0;
+}
+
+/// @return 0 or the error's number
+int readAll(int fd, std::uint64_t offset, void* data, std::size_t size) {
+    auto* bytes = static_cast<char*>(data);
+    while (size > 0) {
+        const ssize_t got = ::pread(fd, bytes, size, static_cast<off_t>(offset));
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) return errno;
+        if (got == 0) break;
+        bytes += got;
+        offset += static_cast<std::uint64_t>(got);
+        size -= static_cast<std::size_t>(got);
+    }
+    return 0;
+}
+
 } // namespace
 
 OutputFile::OutputFile(const std::string& path) : mPath(path), mTarget(followLinks(path)) {
@@ -43,17 +87,11 @@ OutputFile::OutputFile(const std::string& path) : mPath(path), mTarget(followLin
     // A rename would replace a write-protected file without asking.
     if (replaces && ::access(mTarget.c_str(), W_OK) != 0) fail(errno);
 
-    const auto directory = std::filesystem::path(mTarget).parent_path();
-    for (int attempt = 0; mFd < 0; ++attempt) {
-        // Not derived from the target's name, which may be as long as a name can be.
-        const auto name = ".vdbtet-" + std::to_string(::getpid()) + "-" + std::to_string(attempt) + ".tmp";
-        mTemporary = directory / name;
-        mFd = ::open(mTemporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (mFd < 0 && errno != EEXIST) {
-            const int error = errno;
-            mTemporary.clear();
-            fail(error);
-        }
+    mFd = makeTemporary(mTarget, mTemporary);
+    if (mFd < 0) {
+        const int error = errno;
+        mTemporary.clear();
+        fail(error);
     }
     // Fails where the file system has no permissions, which is no reason to refuse.
     if (replaces) static_cast<void>(::fchmod(mFd, old.st_mode & 0777));
@@ -74,17 +112,11 @@ void OutputFile::reserve(std::uint64_t size) {
 }
 
 void OutputFile::writeAt(std::uint64_t offset, const void* data, std::size_t size) {
-    const auto* bytes = static_cast<const char*>(data);
-    while (size > 0) {
-        const ssize_t written = ::pwrite(mFd, bytes, size, static_cast<off_t>(offset));
-        if (written < 0) {
-            if (errno == EINTR) continue;
-            fail(errno);
-        }
-        bytes += written;
-        offset += static_cast<std::uint64_t>(written);
-        size -= static_cast<std::size_t>(written);
-    }
+    if (const int error = writeAll(mFd, offset, data, size)) fail(error);
+}
+
+void OutputFile::readAt(std::uint64_t offset, void* data, std::size_t size) const {
+    if (const int error = readAll(mFd, offset, data, size)) fail(error);
 }
 
 void OutputFile::commit() {
@@ -98,6 +130,29 @@ void OutputFile::commit() {
 
 void OutputFile::fail(int error) const {
     throw FileError("cannot write " + mPath + ": " + std::strerror(error));
+}
+
+SpoolFile::SpoolFile(OutputFile& target) : mTarget(target) {
+    std::string name;
+    mFd = makeTemporary(target.mTarget, name);
+    if (mFd < 0) target.fail(errno);
+    ::unlink(name.c_str());
+}
+
+SpoolFile::~SpoolFile() { ::close(mFd); }
+
+void SpoolFile::append(const void* data, std::size_t size) {
+    if (const int error = writeAll(mFd, mSize, data, size)) mTarget.fail(error);
+    mSize += size;
+}
+
+void SpoolFile::copyTo(std::uint64_t offset) const {
+    std::vector<char> buffer(std::size_t(1) << 20);
+    for (std::uint64_t done = 0; done < mSize; done += buffer.size()) {
+        const auto some = std::size_t(std::min<std::uint64_t>(buffer.size(), mSize - done));
+        if (const int error = readAll(mFd, done, buffer.data(), some)) mTarget.fail(error);
+        mTarget.writeAt(offset + done, buffer.data(), some);
+    }
 }
 
 } // namespace vdbtet

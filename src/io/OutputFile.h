@@ -24,15 +24,41 @@ public:
     /// Take @a size bytes of disk space, so that a full disk shows before the work rather than after.
     void reserve(std::uint64_t size);
     void writeAt(std::uint64_t offset, const void* data, std::size_t size);
+    /// What was written. Bytes behind the end of the file are left as they are.
+    void readAt(std::uint64_t offset, void* data, std::size_t size) const;
     void commit();
+    const std::string& path() const { return mPath; }
 
 private:
+    friend class SpoolFile;
+
     [[noreturn]] void fail(int error) const;
 
     std::string mPath;
     std::string mTarget;    // mPath with the links followed
     std::string mTemporary; // empty once committed
     int mFd = -1;
+};
+
+/// @brief A file beside an OutputFile for what has to wait for its place there.
+/// @details It has no name, so nothing is left of it however the process ends. Throws like the OutputFile.
+class SpoolFile {
+public:
+    /// @param target  lives longer
+    explicit SpoolFile(OutputFile& target);
+    ~SpoolFile();
+    SpoolFile(const SpoolFile&) = delete;
+    SpoolFile& operator=(const SpoolFile&) = delete;
+
+    void append(const void* data, std::size_t size);
+    std::uint64_t size() const { return mSize; }
+    /// Copy all of it to the target.
+    void copyTo(std::uint64_t offset) const;
+
+private:
+    OutputFile& mTarget;
+    int mFd = -1;
+    std::uint64_t mSize = 0;
 };
 
 } // namespace vdbtet

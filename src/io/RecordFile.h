@@ -26,6 +26,11 @@ public:
         std::size_t recordBytes = 0;
     };
 
+    RecordLayout() = default;
+    /// A layout that another library made: what it has written, by offset.
+    RecordLayout(std::vector<std::pair<std::uint64_t, std::string>> texts, std::uint64_t size)
+        : mTexts(std::move(texts)), mSize(size) {}
+
     void text(std::string text);
 
     /// A number as the machine has it in memory.
@@ -71,6 +76,9 @@ public:
     }
 
     void commit() { mFile.commit(); }
+
+    /// For what is not made of records.
+    OutputFile& file() { return mFile; }
 
 private:
     /// Enough to make system calls rare, few enough for the cache.

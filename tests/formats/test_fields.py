@@ -215,6 +215,13 @@ class Fields(FormatTest):
     def test_fields_in_vtu_inline_by_meshio(self):
         self.check("mesh.vtu", read_meshio, "--format", "vtu-inline")
 
+    def test_fields_in_vtkhdf_and_compressed(self):
+        for out, *options in (["mesh.vtkhdf"], ["mesh.vtkhdf", "--compress"], ["mesh.vtu", "--compress"]):
+            self.mesh(out, *options, "-n", "ball", "--sample", "all", fixture="fields.vdb")
+            reader = (need("vtkmodules.vtkIOXML").vtkXMLUnstructuredGridReader() if out.endswith("vtu") else
+                      need("vtkmodules.vtkIOHDF").vtkHDFReader())
+            self.check(*read_with_vtk(reader, out))
+
     def test_fields_in_vtk(self):
         self.check("mesh.vtk", lambda path: read_with_vtk(
             need("vtkmodules.vtkIOLegacy").vtkUnstructuredGridReader(), path))

@@ -90,10 +90,11 @@ std::ptrdiff_t filesIn(const TempFolder& folder) { return std::distance(filesAt(
 /// Write tets in chunks that end before the tets @a ends, the last one first if @a backwards.
 /// @return the contents of the files, by their names
 std::map<std::string, std::string> filesOf(const std::string& format, const MeshTotals& totals,
-                                           const std::vector<std::int64_t>& ends, bool backwards = false) {
+                                           const std::vector<std::int64_t>& ends, bool backwards = false,
+                                           int compression = 0) {
     const TempFolder folder;
     {
-        MeshFile writer(folder.file("mesh"), format);
+        MeshFile writer(folder.file("mesh"), format, {compression, {}});
         CHECK(writer.begin(totals));
         for (std::size_t i = 0; i < ends.size(); ++i) {
             const std::size_t k = backwards ? ends.size() - 1 - i : i;
@@ -160,6 +161,22 @@ TEST_CASE("fields take the room announced, and do not depend on chunks and their
     }
 }
 
+TEST_CASE("a compressed file is no larger than announced, and the same every time") {
+    for (const MeshFormat& format : meshFormats()) {
+        if (!format.compresses) continue;
+        for (const std::int64_t tets : {0, 1, 70000}) {
+            for (const int level : {1, 9}) {
+                CAPTURE(format.name, tets, level);
+                const MeshTotals totals = totalsOf(tets, false);
+                const std::vector<std::int64_t> ends = {0, tets / 70, tets / 2, tets, tets};
+                const auto files = filesOf(format.name, totals, ends, false, level);
+                CHECK(files.at("mesh").size() <= MeshFile::size("mesh", totals, format.name, {level}));
+                CHECK((filesOf(format.name, totals, ends, false, level) == files));
+            }
+        }
+    }
+}
+
 TEST_CASE("a field's tags in msh files are of 32 bits, and larger meshes are refused") {
     constexpr std::int64_t kMaxInt32 = (std::int64_t(1) << 31) - 1;
     CHECK_NOTHROW(MeshFile::size("mesh.msh", withFields(counts(kMaxInt32, kMaxInt32))));
@@ -175,16 +192,35 @@ TEST_CASE("options of USD are refused by other formats") {
         const TempFolder folder;
         if (format.takesUsdOptions) {
             const auto size = [&](const std::optional<UsdOptions>& options) {
-                return MeshFile::size("mesh", totalsOf(3, true), format.name, options);
+                return MeshFile::size("mesh", totalsOf(3, true), format.name, {0, options});
             };
             CHECK(size(usd) > size(UsdOptions()));
             CHECK(size(UsdOptions()) == size({}));
         } else {
-            CHECK_THROWS_AS(MeshFile(folder.file("mesh"), format.name, usd), BadOption);
-            CHECK_THROWS_AS(MeshFile::size("mesh", totalsOf(3, true), format.name, usd), BadOption);
+            CHECK_THROWS_AS(MeshFile(folder.file("mesh"), format.name, {0, usd}), BadOption);
+            CHECK_THROWS_AS(MeshFile::size("mesh", totalsOf(3, true), format.name, {0, usd}), BadOption);
             CHECK(filesIn(folder) == 0);
         }
     }
+}
+
+TEST_CASE("formats without compression, and levels that there are not, are refused") {
+    CHECK_THROWS_AS(MeshFile("mesh.vtk", "", {1}), BadOption);
+    CHECK_THROWS_AS(MeshFile::size("mesh.npz", totalsOf(1, true), "", {1}), BadOption);
+    CHECK_THROWS_AS(MeshFile::formatOf("mesh.vtu", "vtu-inline", {1}), BadOption);
+    for (const int level : {-1, 10}) CHECK_THROWS_AS(MeshFile("mesh.vtu", "", {level}), BadOption);
+}
+
+TEST_CASE("indices of a vtkhdf file take 64 bits only where 32 are too few") {
+    const auto bytesPerTet = [](std::int64_t points, std::int64_t tets) {
+        const MeshTotals totals = counts(points, tets);
+        return (double(MeshFile::size("mesh.vtkhdf", totals)) - 24.0 * double(points)) / double(tets);
+    };
+    const std::int64_t two31 = std::int64_t(1) << 31;
+    CHECK(bytesPerTet(1000, two31 / 4 - 1) == Approx(16 + 4 + 1));
+    CHECK(bytesPerTet(1000, two31 / 4) == Approx(32 + 8 + 1));
+    CHECK(bytesPerTet(two31 + 1, two31 / 8) == Approx(32 + 8 + 1));
+    CHECK(bytesPerTet(two31, 1000 * two31) == Approx(32 + 8 + 1));
 }
 
 TEST_CASE("indices of a vtu file take 64 bits only where 32 are too few") {
@@ -233,24 +269,27 @@ TEST_CASE("an msh22 file is refused where its ids would need more than 32 bits")
     CHECK_THROWS_AS(size(1, kMaxInt32 + 1), TooLarge);
 }
 
-TEST_CASE("the old vtu file stands until the new one is whole") {
+TEST_CASE("the old file stands until the new one is whole") {
+    const auto extension = GENERATE(as<std::string>(), ".vtu", ".vtkhdf");
+    const int compression = GENERATE(0, 1);
     const TempFolder folder;
-    const std::string path = folder.file("mesh.vtu");
+    const std::string path = folder.file("mesh" + extension);
     std::ofstream(path) << "old";
 
+    SECTION("a run that ends before it begins") { const MeshFile writer(path, "", {compression}); }
     SECTION("a run that ends early") {
-        MeshFile writer(path);
-        writer.begin(totalsOf(10, true));
-        give(writer, 0, 5);
+        MeshFile writer(path, "", {compression});
+        writer.begin(totalsOf(100000, true));
+        give(writer, 0, 90000);
     }
     SECTION("fewer tets than announced") {
-        MeshFile writer(path);
+        MeshFile writer(path, "", {compression});
         writer.begin(totalsOf(10, true));
         give(writer, 0, 5);
         CHECK_THROWS_AS(writer.end(), FileError);
     }
     SECTION("more tets than announced") {
-        MeshFile writer(path);
+        MeshFile writer(path, "", {compression});
         writer.begin(totalsOf(10, true));
         CHECK_THROWS_AS(give(writer, 0, 11), FileError);
     }

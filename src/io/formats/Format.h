@@ -41,6 +41,7 @@ std::unique_ptr<Format> makeMeshb(const MeshTotals& totals);
 std::unique_ptr<Format> makeMsh(const MeshTotals& totals);
 std::unique_ptr<Format> makeMsh22(const MeshTotals& totals);
 std::unique_ptr<Format> makeVtk(const MeshTotals& totals);
+std::unique_ptr<Format> makeVtkHdf(const MeshTotals& totals);
 std::unique_ptr<Format> makeVtu(const MeshTotals& totals);
 std::unique_ptr<Format> makeVtuInline(const MeshTotals& totals);
 std::unique_ptr<Format> makeTetGen(const MeshTotals& totals);
