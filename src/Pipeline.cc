@@ -9,6 +9,7 @@
 #include "grading/Grading.h"
 #include "labels/Labels.h"
 #include "numbering/Numbering.h"
+#include "optimize/Optimize.h"
 #include "repair/Repair.h"
 #include "tiles/Layout.h"
 
@@ -72,6 +73,9 @@ MeshTotals totalsOf(const Numbering& numbering, const Frame& frame) {
     return totals;
 }
 
+/// How far points may be off the surface after optimisation, in voxels: half of what is promised.
+constexpr double kOffSurface = 0.5e-3;
+
 /// The level of the coarsest octants, 2^level cells an edge.
 int topLevel(const Options& options, double spacing, const Layout& layout) {
     if (!options.grade) return 0;
@@ -80,12 +84,11 @@ int topLevel(const Options& options, double spacing, const Layout& layout) {
     return std::min(fitting, int(std::floor(std::log2(*options.maxSize / spacing))));
 }
 
-} // namespace
-
-void runPipeline(const Field& field, const Frame& frame, const Options& options, MeshSink& sink,
-                 openvdb::util::NullInterrupter* interrupter, Report& report) {
-    const Session session(interrupter);
-    Interrupt interrupt(interrupter);
+/// All stages.
+/// @param margin  of Field::surfaceTiles()
+/// @return false where that is not enough
+bool mesh(const Field& field, const Frame& frame, const Options& options, int margin, MeshSink& sink,
+          Interrupt& interrupt, Report& report) {
     const auto stage = [&](const char* name, auto&& work) {
         const auto start = std::chrono::steady_clock::now();
         auto product = work();
@@ -95,47 +98,65 @@ void runPipeline(const Field& field, const Frame& frame, const Options& options,
         return product;
     };
 
-    auto tiles = stage("tiles", [&] { return field.surfaceTiles(options.maxSurfaceTiles, interrupt); });
-    if (report.cancelled) return;
+    auto tiles =
+        stage("tiles", [&] { return field.surfaceTiles(options.maxSurfaceTiles, margin, interrupt); });
+    if (report.cancelled) return true;
     std::optional<Cuts> cuts =
         stage("cuts", [&] { return std::make_optional(findCuts(field, tiles, interrupt)); });
-    if (report.cancelled) return;
+    if (report.cancelled) return true;
     const std::vector<TileSigns> signs = std::move(cuts->signs);
     const Layout layout = stage("layout", [&] { return makeLayout(std::move(tiles), signs, interrupt); });
-    if (report.cancelled) return;
+    if (report.cancelled) return true;
     report.surfaceTiles = layout.surfaceCount();
     report.cutEdges = cuts->arrows.cutEdges;
     if (report.cutEdges == 0)
         throw NoSurface("the shape slips between the lattice points; use a finer spacing");
     const Labels labels = stage("labels", [&] { return labelVertices(layout, cuts->arrows, interrupt); });
-    if (report.cancelled) return;
+    if (report.cancelled) return true;
     report.backLabelled = labels.backLabelled;
     report.tieBroken = labels.tieBroken;
     report.worklistSeconds = labels.worklistSeconds;
     const Destinations destinations = stage(
         "destinations", [&] { return findDestinations(field, layout, cuts->arrows, labels, interrupt); });
-    if (report.cancelled) return;
+    if (report.cancelled) return true;
     cuts.reset(); // the largest product, and no one reads it again
 
     Vertices vertices{layout, signs, labels, destinations};
     const Flips flips = stage("flips", [&] { return chooseFlips(vertices, options.tiger, interrupt); });
-    if (report.cancelled) return;
+    if (report.cancelled) return true;
     report.activeFlips = flips.active;
     report.extraFlips = flips.extra;
     report.lastResortFlips = flips.lastResort;
     report.conflicts = flips.conflicts;
     const Repair repair =
         stage("repair", [&] { return repairBoundary(vertices, flips, options.boundary, interrupt); });
-    if (report.cancelled) return;
+    if (report.cancelled) return true;
+    if (repair.leavesSurface && margin == 0) return false;
     report.boundary = repair.counts;
     if (!repair.changes.tiles.empty()) vertices.changes = &repair.changes;
+    Optimized optimized;
+    if (options.optimize) {
+        optimized = stage("optimize", [&] {
+            const OptimizeOptions goals{*options.optimize, options.sweeps,
+                                        kOffSurface * report.voxelSize / report.spacing};
+            return optimize(field, vertices, flips, goals, interrupt);
+        });
+        if (report.cancelled) return true;
+        report.verticesMoved = optimized.verticesMoved;
+        report.sweeps = optimized.sweeps;
+        vertices.moves = &optimized.moves;
+    }
+    // Around vertices that have moved, or that repair has brought to the boundary, graded meshes are uniform.
+    const auto& moved = options.optimize ? optimized.moves.moved : labels.manifold;
+    const auto outer = vertices.changes ? vertices.changes->withExposed(moved) : VertexMasks();
+    const VertexMasks& uniform = vertices.changes ? outer : moved;
     const int top = topLevel(options, frame.spacing, layout);
     const Grading grading =
-        stage("grading", [&] { return gradeInterior(layout, signs, labels, top, interrupt); });
-    if (report.cancelled) return;
+        stage("grading", [&] { return gradeInterior(layout, signs, uniform, top, interrupt); });
+    if (report.cancelled) return true;
     const Numbering numbering =
         stage("numbering", [&] { return numberMesh(vertices, flips, grading, frame, interrupt); });
-    if (report.cancelled) return;
+    if (report.cancelled) return true;
     report.points = numbering.points();
     report.tets = numbering.tets();
     report.boundaryTriangles = numbering.triangles();
@@ -153,17 +174,41 @@ void runPipeline(const Field& field, const Frame& frame, const Options& options,
     report.angleMax = resolved ? 157.59 : 164.18;
 
     const bool wantsChunks = stage("begin", [&] { return sink.begin(totalsOf(numbering, frame)); });
-    if (report.cancelled) return;
+    if (report.cancelled) return true;
     AngleSum angles = stage(wantsChunks ? "emit" : "measure", [&] {
         return wantsChunks ? emitMesh(vertices, flips, grading, numbering, frame, sink, interrupt)
                            : measureMesh(vertices, flips, grading, numbering, frame, interrupt);
     });
-    if (report.cancelled) return;
+    if (report.cancelled) return true;
     report.angles = angles.stats();
+    report.percentiles = angles.percentiles();
+    report.anglesBefore = {report.angles.min, report.angles.max};
+    if (options.optimize) {
+        // What was not measured before are tets of the lattice.
+        report.anglesBefore = {std::min(optimized.before.min, 60.0), std::max(optimized.before.max, 90.0)};
+    }
     stage("end", [&] {
         sink.end();
         return 0;
     });
+    report.cancelled = false; // too late
+    return true;
+}
+
+} // namespace
+
+void runPipeline(const Field& field, const Frame& frame, const Options& options, MeshSink& sink,
+                 openvdb::util::NullInterrupter* interrupter, Report& report) {
+    const Session session(interrupter);
+    Interrupt interrupt(interrupter);
+    const std::size_t before = report.stages.size();
+    // Points that are moved on, those next to manifold ones, need a tile with a record, too.
+    if (options.optimize) {
+        mesh(field, frame, options, 1, sink, interrupt, report);
+    } else if (!mesh(field, frame, options, 0, sink, interrupt, report)) {
+        report.stages.resize(before);
+        mesh(field, frame, options, 1, sink, interrupt, report);
+    }
 }
 
 } // namespace vdbtet

@@ -25,6 +25,10 @@ void checkOptions(const Options& options) {
         throw BadOption("the isovalue must be a finite number");
     if (options.maxSize && !options.grade)
         throw BadOption("a maximal size is given, but the inside is not to be graded");
+    if (options.optimize && !(*options.optimize >= 1.0 && *options.optimize <= 38.0))
+        throw BadOption("the angle to reach by optimisation must be from 1 to 38 degrees");
+    if (options.sweeps < 1 || options.sweeps > 1000)
+        throw BadOption("the number of sweeps must be from 1 to 1000");
     if (options.maxSurfaceTiles < 1 || options.maxSurfaceTiles > kMostSurfaceTiles) {
         throw BadOption("the limit on surface tiles must be from 1 to 2^30");
     }

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -40,6 +41,20 @@ std::string isPositive(const std::string& text) {
     const double value = std::strtod(text.c_str(), &end);
     const bool fine = !text.empty() && *end == '\0' && value > 0.0 && std::isfinite(value);
     return fine ? "" : text + " is not a positive number";
+}
+
+/// @brief Give --optimize its value, so that it never takes a file's name for one.
+/// @return the arguments in reverse order, as CLI11 wants them
+std::vector<std::string> withTargets(int argc, const char* const* argv) {
+    std::vector<std::string> arguments(argv + 1, argv + argc);
+    for (std::size_t i = 0; i < arguments.size() && arguments[i] != "--"; ++i) {
+        if (arguments[i] != "--optimize") continue;
+        const bool given = i + 1 < arguments.size() && isPositive(arguments[i + 1]).empty();
+        arguments[i] += "=" + (given ? arguments[i + 1] : "30");
+        if (given) arguments.erase(arguments.begin() + std::ptrdiff_t(i) + 1);
+    }
+    std::reverse(arguments.begin(), arguments.end());
+    return arguments;
 }
 
 void check(const CommandLine& line) {
@@ -121,6 +136,16 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
                    "Version of the method, 1 or 2. Default: 2, with the better angles")
         ->check(CLI::IsMember({1, 2}).description(""))
         ->type_name("1|2");
+    auto* optimize = app.add_option("--optimize", options.optimize,
+                                    "Move points until no dihedral angle is less than TARGET degrees, or no "
+                                    "move helps; 30 where it is left out, at most 38. Default: do not")
+                         ->type_name("[TARGET]");
+    app.add_option(
+           "--sweeps", options.sweeps,
+           fmt::format("With --optimize: at most so many moves of a point. Default: {}", options.sweeps))
+        ->check(CLI::Range(1, 1000).description(""))
+        ->type_name("N")
+        ->needs(optimize);
     app.add_option(
            "--max-tiles", options.maxSurfaceTiles,
            fmt::format("Refuse a surface that crosses more lattice tiles, of 8 x 8 x 8 cells, than this. "
@@ -184,7 +209,7 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
     app.add_flag("-q,--quiet", line.quiet, "Print nothing but errors");
 
     try {
-        app.parse(argc, argv);
+        app.parse(withTargets(argc, argv));
     } catch (const CLI::CallForHelp&) {
         fmt::print("{}", app.help());
         return std::nullopt;

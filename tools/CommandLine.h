@@ -17,8 +17,8 @@ struct UsageError : std::runtime_error {
 
 struct CommandLine {
     std::string in;
-    std::string out;                      ///< may be empty in a dry run
-    std::string format;                   ///< of OUT; empty: by its extension
+    std::string out;    ///< may be empty in a dry run
+    std::string format; ///< of OUT; empty: by its extension
     vdbtet::FormatOptions formatOptions;
     std::string surface;                  ///< where to write the boundary; empty: nowhere
     std::string name;                     ///< of the grid; empty: the only one

@@ -44,11 +44,22 @@ std::string asText(const CommandLine& line, const Summary& summary) {
     add("angles", r.tets == 0
                       ? "none"
                       : fmt::format("{:.2f} to {:.2f} degrees; {}", r.angles.min, r.angles.max, bound));
+    std::string tails;
+    for (std::size_t i = 0; i < r.percentiles.kPercents.size(); ++i) {
+        tails += fmt::format("{}{} % below {:.2f} and above {:.2f}", i == 0 ? "" : "; ",
+                             r.percentiles.kPercents[i], r.percentiles.low[i], r.percentiles.high[i]);
+    }
+    if (r.tets != 0) add("tails", tails);
+    if (line.options.optimize) {
+        add("optimized", fmt::format("from {:.2f} to {:.2f} degrees; {} points moved in {} sweeps",
+                                     r.anglesBefore.min, r.anglesBefore.max, r.verticesMoved, r.sweeps));
+    }
     add("dropped", fmt::format("{} ambiguous tets", r.ambiguous));
     if (r.boundary.found > 0) {
-        add("boundary", fmt::format("not a surface at {} vertices: {} tets filled, {} taken out, {} points doubled{}",
-                                    r.boundary.found, r.boundary.filled, r.boundary.peeled, r.boundary.split,
-                                    r.boundary.left > 0 ? fmt::format("; {} left", r.boundary.left) : ""));
+        add("boundary",
+            fmt::format("not a surface at {} vertices: {} tets filled, {} taken out, {} points doubled{}",
+                        r.boundary.found, r.boundary.filled, r.boundary.peeled, r.boundary.split,
+                        r.boundary.left > 0 ? fmt::format("; {} left", r.boundary.left) : ""));
     }
     add("flips", fmt::format("{} active, {} extra, {} last resort; {} conflicts", r.activeFlips, r.extraFlips,
                              r.lastResortFlips, r.conflicts));
@@ -89,6 +100,12 @@ std::string asJson(const CommandLine& line, const Summary& summary) {
         {"tets", r.tets},
         {"tetsOfLevel", r.tetsOfLevel},
         {"boundaryTriangles", r.boundaryTriangles},
+        {"boundary",
+         {{"found", r.boundary.found},
+          {"filled", r.boundary.filled},
+          {"peeled", r.boundary.peeled},
+          {"split", r.boundary.split},
+          {"left", r.boundary.left}}},
         {"ambiguous", r.ambiguous},
         {"conflicts", r.conflicts},
         {"activeFlips", r.activeFlips},
@@ -98,11 +115,18 @@ std::string asJson(const CommandLine& line, const Summary& summary) {
         {"cutEdges", r.cutEdges},
         {"backLabelled", r.backLabelled},
         {"tieBroken", r.tieBroken},
+        {"verticesMoved", r.verticesMoved},
+        {"sweeps", r.sweeps},
         {"angles",
          {{"min", r.angles.min},
           {"max", r.angles.max},
+          {"minBefore", r.anglesBefore.min},
+          {"maxBefore", r.anglesBefore.max},
           {"provenMin", r.angleMin},
           {"provenMax", r.angleMax},
+          {"percents", r.percentiles.kPercents},
+          {"low", r.percentiles.low},
+          {"high", r.percentiles.high},
           {"histogram", r.angles.histogram}}},
         {"bounds", {{"min", corner(r.bounds.min())}, {"max", corner(r.bounds.max())}}},
         {"stages", stages},

@@ -19,6 +19,21 @@ struct AngleStats {
     AngleStats& operator+=(const AngleStats& other);
 };
 
+/// The extremes of dihedral angles, in degrees.
+struct AngleRange {
+    double min = 180.0;
+    double max = 0.0;
+};
+
+/// The tails of the distribution of dihedral angles, in degrees.
+struct AnglePercentiles {
+    static constexpr std::array<double, 3> kPercents{0.01, 0.1, 1.0};
+
+    /// kPercents[i] percent of all angles are at most low[i], and as many at least high[i]: to within a fifth
+    /// of a degree, but one degree from 80 to 100.
+    std::array<double, 3> low{}, high{};
+};
+
 /// @return the six dihedral angles of the tet (a,b,c,d) in degrees, at its edges ab, ac, ad, bc, bd, cd.
 /// @note An inverted tet shows the angles of its mirror image: look at signedVolume6() too.
 std::array<double, 6> dihedralAngles(const openvdb::Vec3d& a, const openvdb::Vec3d& b,

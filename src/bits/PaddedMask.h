@@ -52,6 +52,7 @@ public:
 
     bool test(int n) const { return rows[n >> 4] >> (n & 15) & 1; }
     void set(int n, bool on = true) { rows[n >> 4] |= std::uint16_t(unsigned(on) << (n & 15)); }
+    void remove(int n) { rows[n >> 4] &= std::uint16_t(~(1u << (n & 15))); }
     void remove(const PaddedMask& other) {
         for (int r = 0; r < kRows; ++r) rows[r] &= std::uint16_t(~other.rows[r]);
     }

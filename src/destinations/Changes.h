@@ -34,8 +34,8 @@ struct TileChanges {
     /// Own boundary faces less, and more.
     std::vector<LocalFace> gone, fresh;
 
-    /// Own vertices, by lattice: in the mesh now, or no longer; on the boundary though not manifold, or inside
-    /// though manifold.
+    /// Own vertices, by lattice: in the mesh now, or no longer; on the boundary though not manifold, or
+    /// inside though manifold.
     std::array<TileMask, 2> used, unused, exposed, buried;
 
     /// Own vertices, as lattice << 9 | bit, once for each point more than one; ascending.
@@ -58,6 +58,9 @@ struct TileChanges {
     std::vector<FaceCopy> faceCopies; ///< of own boundary faces; ascending
 };
 
+/// Vertices of each surface tile, by lattice.
+using VertexMasks = std::vector<std::array<TileMask, 2>>;
+
 struct Changes {
     std::vector<std::int32_t> numbers; ///< of each surface tile: where its changes are, or -1
     std::vector<TileChanges> tiles;
@@ -65,6 +68,16 @@ struct Changes {
     /// @return the changes of a tile, or null
     const TileChanges* of(TileRef tile) const {
         return tile < 0 || numbers[tile] < 0 ? nullptr : &tiles[numbers[tile]];
+    }
+
+    /// @return some vertices, and those on the boundary though not manifold.
+    VertexMasks withExposed(VertexMasks masks) const {
+        for (std::size_t t = 0; t < masks.size(); ++t) {
+            if (numbers[t] < 0) continue;
+            for (std::size_t lattice = 0; lattice < 2; ++lattice)
+                masks[t][lattice] |= tiles[std::size_t(numbers[t])].exposed[lattice];
+        }
+        return masks;
     }
 };
 

@@ -41,6 +41,18 @@ void LocalStates::load(const Vertices& vertices, TileRef tile) {
     }
 }
 
+TileMask nextTo(const std::array<PaddedMask, 2>& masks, bcc::Lattice lattice) {
+    const PaddedMask &same = masks[lattice], &other = masks[bcc::other(lattice)];
+    TileMask mask;
+    for (const int step : {-1, 1})
+        mask |= same.shifted(step, 0, 0) | same.shifted(0, step, 0) | same.shifted(0, 0, step);
+    for (int d = 0; d < bcc::kDirections; ++d) {
+        const bcc::Step step = bcc::shortEdge(lattice, d);
+        mask |= other.shifted(step.x, step.y, step.z);
+    }
+    return mask;
+}
+
 LocalPositions::LocalPositions() {
     for (int local = 0; local < kLocalVertices; ++local) mPosition[local] = homeOf(local);
 }

@@ -4,11 +4,11 @@
 
 #include "bcc/Lattice.h"
 #include "bits/PaddedMask.h"
+#include "destinations/Changes.h"
 #include "destinations/Destinations.h"
 #include "destinations/Moves.h"
 #include "field/Field.h"
 #include "labels/Labels.h"
-#include "destinations/Changes.h"
 #include "tiles/Layout.h"
 
 #include <openvdb/Types.h>
@@ -25,7 +25,7 @@ struct Vertices {
     const std::vector<TileSigns>& signs;
     const Labels& labels;
     const Destinations& destinations;
-    const Moves* moves = nullptr; ///< in place of the destinations, or null
+    const Moves* moves = nullptr;     ///< in place of the destinations, or null
     const Changes* changes = nullptr; ///< of the tets, or null
 
     /// @return what of a tile differs from what labels and flips say, or null
@@ -42,9 +42,7 @@ struct Vertices {
     openvdb::Vec3d move(std::int64_t i) const {
         return moves ? openvdb::Vec3d(moves->offsets[i]) : destinations.move(i);
     }
-    bool anyMoved(TileRef tile) const {
-        return moves ? moved(tile, bcc::A).any() || moved(tile, bcc::B).any() : destinations.any(tile);
-    }
+    bool anyMoved(TileRef tile) const { return moves ? moves->any(tile) : destinations.any(tile); }
 };
 
 enum class State : std::uint8_t {
@@ -101,6 +99,10 @@ public:
     const PaddedMask& interiorMask(int lattice) const { return mInterior[lattice]; }
     const PaddedMask& manifoldMask(int lattice) const { return mManifold[lattice]; }
 
+    /// The same of both lattices.
+    const std::array<PaddedMask, 2>& interiorMasks() const { return mInterior; }
+    const std::array<PaddedMask, 2>& manifoldMasks() const { return mManifold; }
+
 private:
     std::array<PaddedMask, 2> mInterior, mManifold; ///< by lattice
 };
@@ -149,6 +151,10 @@ private:
     const Neighbours* mNeighbours = nullptr;
 };
 
+/// @return the vertices of @a lattice in a tile that have a neighbour, by a short or a long edge, in some
+/// masks of both lattices.
+TileMask nextTo(const std::array<PaddedMask, 2>& masks, bcc::Lattice lattice);
+
 /// Where all of them are now, for those who look at each many times.
 class LocalPositions {
 public:
@@ -159,6 +165,9 @@ public:
 
     /// In lattice units, relative to L_A's lowest vertex of the tile.
     const openvdb::Vec3d& operator[](int local) const { return mPosition[local]; }
+
+    /// Put a vertex that has an offset elsewhere.
+    void move(int local, const openvdb::Vec3d& to) { mPosition[local] = to; }
 
     /// Whether any vertex is not at home.
     bool anyMoved() const { return !mMoved.empty(); }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bits/TileMask.h"
+#include "tiles/Spans.h"
 
 #include <openvdb/Types.h>
 
@@ -15,8 +16,16 @@ namespace vdbtet {
 /// The offsets of vertices from their places in the lattice.
 struct Moves {
     std::vector<std::array<TileMask, 2>> moved; ///< of each surface tile: the vertices that have an offset
-    std::vector<std::array<std::int64_t, 2>> first; ///< of a tile and lattice; the offsets go by bit
-    std::vector<openvdb::Vec3f> offsets;            ///< lattice units
+    std::vector<std::array<std::int64_t, 2>>
+        first; ///< the first offset of a tile and lattice, and the end; they go by bit of moved
+    std::vector<openvdb::Vec3f> offsets; ///< lattice units
+
+    /// @return whether a surface tile has any vertex that is not at home.
+    bool any(TileRef tile) const { return first[tile][0] != first[tile + 1][0]; }
+
+    /// Number the offsets of the vertices in moved.
+    /// @return how many there are
+    std::int64_t number();
 };
 
 } // namespace vdbtet

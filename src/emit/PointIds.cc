@@ -104,8 +104,8 @@ std::int64_t PointIds::findBelow(int tier, Coord tile, int n) const {
 
 std::int64_t PointIds::copyOf(int local, int copy) const {
     const int n = bitOf(local);
-    const Ids ids = idsAround(neighbourSlot(tileStep(PaddedMask::x(n)), tileStep(PaddedMask::y(n)),
-                                            tileStep(PaddedMask::z(n))));
+    const Ids ids = idsAround(
+        neighbourSlot(tileStep(PaddedMask::x(n)), tileStep(PaddedMask::y(n)), tileStep(PaddedMask::z(n))));
     return ids.first[bcc::B] + ids.used[bcc::B]->count() + copy;
 }
 

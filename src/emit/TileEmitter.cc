@@ -196,12 +196,13 @@ void TileEmitter::emitSurfacePoints(const Coord& tile, TileRef record, TileRef s
     }
     const TileChanges* changes = mVertices.changesOf(surface);
     if (!changes) return;
-    const Vec3d* const points = out.points - usedIn(record, surface, bcc::A).count() -
-                                usedIn(record, surface, bcc::B).count();
+    const Vec3d* const points =
+        out.points - usedIn(record, surface, bcc::A).count() - usedIn(record, surface, bcc::B).count();
     for (const std::uint16_t copy : changes->copies) {
         const int lattice = copy >> 9, n = copy & 511;
         const TileMask& used = usedIn(record, surface, lattice);
-        *out.points++ = points[(lattice == bcc::B ? usedIn(record, surface, bcc::A).count() : 0) + used.rank(n)];
+        *out.points++ =
+            points[(lattice == bcc::B ? usedIn(record, surface, bcc::A).count() : 0) + used.rank(n)];
     }
 }
 

@@ -31,6 +31,13 @@ struct ShortEdge {
     std::uint16_t direction;
 };
 
+/// The field at some point.
+struct FieldPoint {
+    double phi = 0.0;
+    openvdb::Vec3d gradient{0.0}; ///< by lattice units
+    bool steep = false;           ///< whether the gradient can be relied on; its length alone says nothing
+};
+
 class Field {
 public:
     virtual ~Field() = default;
@@ -39,8 +46,11 @@ public:
     /// [8x, 8x+8) x [8y, 8y+8) x [8z, 8z+8) of both lattices.
     /// @details Any other tile is plain inside or plain outside: no short edge is cut that touches a vertex
     /// of an octahedron, of either lattice, whose spine's lower end the tile owns.
+    /// @param margin  0; or 1, for a reach of one cell more: then no cut edge touches any vertex next to one
+    /// of those octahedra's, either
     /// @throw TooLarge for more than @a maxTiles
-    virtual std::vector<openvdb::Coord> surfaceTiles(std::int64_t maxTiles, Interrupt& interrupt) const = 0;
+    virtual std::vector<openvdb::Coord> surfaceTiles(std::int64_t maxTiles, int margin,
+                                                     Interrupt& interrupt) const = 0;
 
     /// Reads the field; one for each task, since it caches.
     class Sampler {
@@ -71,6 +81,17 @@ public:
     };
 
     virtual std::unique_ptr<Sampler> sampler() const = 0;
+
+    /// Reads the field anywhere; one for each task, since it caches.
+    class Probe {
+    public:
+        virtual ~Probe() = default;
+
+        /// @return the field, the one whose cut points Sampler finds, at a point in lattice units.
+        virtual FieldPoint at(const openvdb::Vec3d& place) = 0;
+    };
+
+    virtual std::unique_ptr<Probe> probe() const = 0;
 };
 
 } // namespace vdbtet

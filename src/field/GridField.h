@@ -6,6 +6,7 @@
 #include "field/Field.h"
 #include "field/Level.h"
 #include "field/SurfaceTiles.h"
+#include "field/TrilinearProbe.h"
 #include "field/TrilinearSampler.h"
 #include "field/VoxelSampler.h"
 
@@ -18,13 +19,18 @@ public:
     GridField(const GridT& grid, const Frame& frame, const Level& level)
         : mGrid(grid), mFrame(frame), mLevel(level), mOnVoxels(frame.toIndex == openvdb::Mat3d::identity()) {}
 
-    std::vector<openvdb::Coord> surfaceTiles(std::int64_t maxTiles, Interrupt& interrupt) const override {
-        return tilesNearSurface(mGrid.tree(), mFrame, mLevel, maxTiles, interrupt);
+    std::vector<openvdb::Coord> surfaceTiles(std::int64_t maxTiles, int margin,
+                                             Interrupt& interrupt) const override {
+        return tilesNearSurface(mGrid.tree(), mFrame, mLevel, maxTiles, margin, interrupt);
     }
 
     std::unique_ptr<Sampler> sampler() const override {
         if (mOnVoxels) return std::make_unique<VoxelSampler<GridT>>(mGrid, mLevel);
         return std::make_unique<TrilinearSampler<GridT>>(mGrid, mFrame, mLevel);
+    }
+
+    std::unique_ptr<Probe> probe() const override {
+        return std::make_unique<TrilinearProbe<GridT>>(mGrid, mFrame, mLevel);
     }
 
 private:

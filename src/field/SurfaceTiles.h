@@ -52,8 +52,10 @@ private:
 /// each thread.
 class NearTiles {
 public:
-    NearTiles(const Frame& frame, std::int64_t limit)
-        : mFrame(frame), mOnVoxels(frame.toIndex == openvdb::Mat3d::identity()), mTiles(limit) {}
+    /// @param margin  0 or 1, cells
+    NearTiles(const Frame& frame, std::int64_t limit, int margin)
+        : mFrame(frame), mOnVoxels(frame.toIndex == openvdb::Mat3d::identity()), mMargin(margin),
+          mTiles(limit) {}
 
     void operator()(const openvdb::Coord& block, const TileMask& mixed) {
         mOnVoxels ? addOnVoxels(block, mixed) : addAnywhere(block, mixed);
@@ -65,12 +67,18 @@ public:
 private:
     /// The block is a tile, and a cut edge has both its ends in the box of a mixed cube. So a cube matters to
     /// the neighbours whose border its box touches: octahedra reach half a cell below the tile's vertices and
-    /// one above.
+    /// one above, and the margin comes on top.
     void addOnVoxels(const openvdb::Coord& block, const TileMask& mixed) {
-        std::uint64_t slabs[3] = {mixed.words[0], 0, mixed.words[7]}; // by the step to the neighbour
+        // By the step to the neighbour.
+        std::uint64_t slabs[3] = {mixed.words[0], 0, mixed.words[7]};
+        if (mMargin > 0) slabs[0] |= mixed.words[1], slabs[2] |= mixed.words[6];
         for (std::uint64_t word : mixed.words) slabs[1] |= word;
-        constexpr std::uint64_t kRows[3] = {0xff, ~std::uint64_t(0), std::uint64_t(0xff) << 56};
-        constexpr std::uint64_t kBits[3] = {0x0101010101010101, ~std::uint64_t(0), 0x8080808080808080};
+        constexpr std::uint64_t kAll = ~std::uint64_t(0);
+        constexpr std::uint64_t kAllRows[2][3] = {{0xff, kAll, std::uint64_t(0xff) << 56},
+                                                  {0xffff, kAll, std::uint64_t(0xffff) << 48}};
+        constexpr std::uint64_t kAllBits[2][3] = {{0x0101010101010101, kAll, 0x8080808080808080},
+                                                  {0x0303030303030303, kAll, 0xc0c0c0c0c0c0c0c0}};
+        const auto &kRows = kAllRows[mMargin], &kBits = kAllBits[mMargin];
         for (int slot = 0; slot < 27; ++slot) {
             const int x = slot / 9, y = slot / 3 % 3, z = slot % 3;
             if (slabs[x] & kRows[y] & kBits[z]) mTiles.add(block.offsetBy(x - 1, y - 1, z - 1));
@@ -98,13 +106,14 @@ private:
     /// @return the tiles near a box of index space.
     openvdb::CoordBBox tilesNear(const openvdb::Vec3d& low, const openvdb::Vec3d& size) const {
         const openvdb::Vec3d centre = mFrame.fromIndex * (low + 0.5 * size);
+        const double reach = kReach + mMargin;
         openvdb::Coord min, max;
         for (int axis = 0; axis < 3; ++axis) {
             double half = 0.0;
             for (int j = 0; j < 3; ++j) half += 0.5 * size[j] * std::abs(mFrame.fromIndex(axis, j));
             // The vertices of tile t reach from 8t to 8t + 7.5.
-            const double first = std::ceil((centre[axis] - half - kReach - 7.5) / 8.0);
-            const double last = std::floor((centre[axis] + half + kReach) / 8.0);
+            const double first = std::ceil((centre[axis] - half - reach - 7.5) / 8.0);
+            const double last = std::floor((centre[axis] + half + reach) / 8.0);
             // Local coordinates and neighbours of tiles must stay within 32 bits.
             constexpr double kFarthest = 2.0e9;
             if (!(first > -kFarthest && last < kFarthest)) {
@@ -121,14 +130,15 @@ private:
 
     Frame mFrame;
     bool mOnVoxels;
+    int mMargin;
     TileSet mTiles;
 };
 
 /// Field::surfaceTiles() of a VDB tree.
 template <typename TreeT>
 Coords tilesNearSurface(const TreeT& tree, const Frame& frame, const Level& level, std::int64_t maxTiles,
-                        Interrupt& interrupt) {
-    tbb::enumerable_thread_specific<NearTiles> parts(frame, maxTiles);
+                        int margin, Interrupt& interrupt) {
+    tbb::enumerable_thread_specific<NearTiles> parts(frame, maxTiles, margin);
     forEachSurfaceBlock(tree, level, maxTiles, interrupt, parts);
     Coords tiles;
     for (const NearTiles& part : parts) tiles.insert(tiles.end(), part.tiles().begin(), part.tiles().end());

@@ -14,6 +14,8 @@ using openvdb::Coord;
 
 namespace {
 
+using MovedMasks = std::vector<std::array<TileMask, 2>>;
+
 const TileMask kAll = TileMask::filled(true);
 
 /// What a tile without a record has inside the shape, or outside, where everything may be taken to exist.
@@ -26,9 +28,9 @@ OctantSet allAlike(int coarsest) {
 }
 
 /// The cells of a surface tile that must be octants.
-TileMask finestCells(const Layout& layout, const Labels& labels, TileRef tile) {
+TileMask finestCells(const Layout& layout, const MovedMasks& moved, TileRef tile) {
     const Surroundings around(layout.neighbours[tile]);
-    const PaddedMask a(around.masks(labels.manifold, bcc::A)), b(around.masks(labels.manifold, bcc::B));
+    const PaddedMask a(around.masks(moved, bcc::A)), b(around.masks(moved, bcc::B));
     TileMask cells = b.core();
     for (int step : {-1, 1}) cells |= b.shifted(step, 0, 0) | b.shifted(0, step, 0) | b.shifted(0, 0, step);
     for (int d = 0; d < bcc::kDirections; ++d) {
@@ -49,10 +51,10 @@ struct Units {
     }
 };
 
-Units finestUnits(const Layout& layout, const Labels& labels, Interrupt& interrupt) {
+Units finestUnits(const Layout& layout, const MovedMasks& moved, Interrupt& interrupt) {
     std::vector<TileMask> cells(layout.surfaceTiles.size());
     parallelRanges(layout.surfaceCount(), interrupt, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t t = begin; t < end; ++t) cells[t] = finestCells(layout, labels, TileRef(t));
+        for (std::int64_t t = begin; t < end; ++t) cells[t] = finestCells(layout, moved, TileRef(t));
     });
     Units units;
     for (std::size_t t = 0; t < cells.size(); ++t) {
@@ -227,7 +229,7 @@ int coarsestLevel(const Layout& layout) {
     return level;
 }
 
-Grading gradeInterior(const Layout& layout, const std::vector<TileSigns>& signs, const Labels& labels,
+Grading gradeInterior(const Layout& layout, const std::vector<TileSigns>& signs, const MovedMasks& moved,
                       int top, Interrupt& interrupt) {
     Grading grading;
     grading.top = top;
@@ -236,7 +238,7 @@ Grading gradeInterior(const Layout& layout, const std::vector<TileSigns>& signs,
         grading.tiers[0].spans = layout.spans;
         return grading;
     }
-    TierMaker maker(layout, signs, finestUnits(layout, labels, interrupt), interrupt);
+    TierMaker maker(layout, signs, finestUnits(layout, moved, interrupt), interrupt);
     const int last = (top - 1) / 3;
     for (int tier = 0; tier <= last && !interrupt.stopped(); ++tier)
         grading.tiers.push_back(maker.next(tier < last ? 3 : top - 3 * last, tier == last));

@@ -10,9 +10,9 @@
 #include "Parallel.h"
 #include "cuts/Arrows.h"
 #include "grading/LocalOctants.h"
-#include "labels/Labels.h"
 #include "tiles/Layout.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -71,12 +71,13 @@ struct Grading {
 };
 
 /// @brief Choose the octants.
-/// @param top  the level of the coarsest; 0 for a uniform mesh
+/// @param moved  of each surface tile and lattice, the vertices that are not at home
+/// @param top    the level of the coarsest; 0 for a uniform mesh
 /// @details A cell is an octant of level 0 iff a corner of it, its centre, or the centre of a face neighbour
-/// is manifold. So all tets at manifold vertices are the lattice's own, and the boundary is the same as the
+/// is moved. So all tets at moved vertices are the lattice's own, and the boundary is the same as the
 /// uniform mesh's. The others are those that weak balance then asks for.
-Grading gradeInterior(const Layout& layout, const std::vector<TileSigns>& signs, const Labels& labels,
-                      int top, Interrupt& interrupt);
+Grading gradeInterior(const Layout& layout, const std::vector<TileSigns>& signs,
+                      const std::vector<std::array<TileMask, 2>>& moved, int top, Interrupt& interrupt);
 
 /// The level from which on no coarser octant fits into the inside.
 int coarsestLevel(const Layout& layout);

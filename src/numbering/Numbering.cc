@@ -16,22 +16,6 @@ namespace {
 /// Where all around are alike.
 constexpr std::int64_t kTetsPerOctant = 12;
 
-/// @return the vertices of @a lattice in a tile that have a neighbour, by a short or a long edge, in the
-/// interior.
-TileMask nextToInterior(const PaddedMask& sameLattice, const PaddedMask& otherLattice, bcc::Lattice lattice) {
-    TileMask mask;
-    for (int axis = 0; axis < 3; ++axis) {
-        for (int step : {-1, 1}) {
-            mask |= sameLattice.shifted(axis == 0 ? step : 0, axis == 1 ? step : 0, axis == 2 ? step : 0);
-        }
-    }
-    for (int d = 0; d < bcc::kDirections; ++d) {
-        const bcc::Step step = bcc::shortEdge(lattice, d);
-        mask |= otherLattice.shifted(step.x, step.y, step.z);
-    }
-    return mask;
-}
-
 /// Looks at one tile after another; one for each thread.
 class TileNumberer {
 public:
@@ -101,10 +85,7 @@ private:
             if (graded && lattice == bcc::A) used[lattice] &= mOctants.vertices();
             const TileMask& manifold = mVertices.labels.manifold[tile][lattice];
             TileMask outer;
-            if (manifold.any()) {
-                outer = manifold & nextToInterior(mStates.interiorMask(lattice),
-                                                  mStates.interiorMask(bcc::other(lattice)), lattice);
-            }
+            if (manifold.any()) outer = manifold & nextTo(mStates.interiorMasks(), lattice);
             used[lattice] |= outer;
             if (changes) {
                 used[lattice] = (used[lattice] | changes->used[lattice]) & ~changes->unused[lattice];
@@ -142,8 +123,9 @@ private:
             const openvdb::Vec3d to = homeOf(localIndex(lattice, n)) + mVertices.move(move++);
             if (outer.test(n)) bounds.expand(mFrame.world(origin + to));
         });
-        (outer & ~moved).forEach(
-            [&](int n) { bounds.expand(mFrame.world(origin + homeOf(localIndex(lattice, n)))); });
+        (outer & ~moved).forEach([&](int n) {
+            bounds.expand(mFrame.world(origin + homeOf(localIndex(lattice, n))));
+        });
     }
 
     const Vertices& mVertices;

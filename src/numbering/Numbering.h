@@ -17,8 +17,9 @@
 namespace vdbtet {
 
 /// @brief Ids: those of a span's points start at firstPoint[span]; within a tile they go by rank in the used
-/// masks, L_A before L_B, then TileChanges::copies. Those of its tets start at firstTet[span] and go in the order of TileTets, then of
-/// the fringe, then by level; its boundary triangles likewise, in the order of findBoundaryFaces().
+/// masks, L_A before L_B, then TileChanges::copies. Those of its tets start at firstTet[span] and go in the
+/// order of TileTets, then of the fringe, then by level; its boundary triangles likewise, in the order of
+/// findBoundaryFaces().
 /// @details Spans are counted on from tier to tier.
 struct Numbering {
     std::vector<std::int64_t> firstSpan; ///< of each tier, and the number of all at the end

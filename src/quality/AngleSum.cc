@@ -11,20 +11,35 @@ namespace vdbtet {
 
 namespace {
 
-/// The signed squares of the cosines of 10, 20, ... 170 degrees.
-const std::array<double, 17>& binEdges() {
-    static const std::array<double, 17> kEdges = [] {
-        std::array<double, 17> edges;
-        for (int i = 0; i < 17; ++i) {
-            const double cosine = std::cos((i + 1) * 10.0 / 57.295779513082320877);
-            edges[i] = cosine * std::abs(cosine);
-        }
-        return edges;
-    }();
-    return kEdges;
+constexpr double kFinePerUnit = 512.0;
+
+/// The fine bin of a signed square. Ascending, so only in the bin of an edge are there squares on both sides.
+VDBTET_KERNEL inline int fineBin(double square, int bins) {
+    const double bin = (square + 1.0) * kFinePerUnit, last = bins - 1;
+    // Rounding may lead out at both ends, and the angles of a degenerate tet are not numbers.
+    return int(bin > 0.0 ? bin < last ? bin : last : 0.0);
 }
 
-double cosineOf(double square) { return std::copysign(std::sqrt(std::abs(square)), square); }
+/// The multiples of 10 degrees in fine bins.
+struct Edges {
+    std::vector<double> square; ///< of the cosine of the one in a bin; below all where there is none
+    std::vector<int> beyond;    ///< how many there are in the bins above, of smaller angles
+
+    explicit Edges(int bins) : square(std::size_t(bins), -2.0), beyond(std::size_t(bins), 0) {
+        for (int i = 1; i < 18; ++i) {
+            const double cosine = std::cos(i * 10.0 / 57.295779513082320877);
+            const double edge = cosine * std::abs(cosine);
+            const int bin = fineBin(edge, bins);
+            square[std::size_t(bin)] = edge;
+            for (int below = 0; below < bin; ++below) ++beyond[std::size_t(below)];
+        }
+    }
+};
+
+const Edges& fineEdges() {
+    static const Edges kEdges(2 * int(kFinePerUnit));
+    return kEdges;
+}
 
 } // namespace
 
@@ -34,12 +49,12 @@ void AngleSum::flush() {
     if (count == 0) return;
     // The rest of a batch repeats its first tet, and is not counted.
     for (auto& row : mBatch) std::fill(row + count, row + kBatch, row[0]);
-    mAngles += 6 * count;
-    const auto& edges = binEdges();
 
+    const double* edges = fineEdges().square.data();
     runOn(mIsa, [&]() VDBTET_KERNEL {
         constexpr int kAngles = 6 * kBatch;
         double squares[kAngles];
+        int bins[kAngles];
         for (int i = 0; i < kBatch; ++i) {
             const auto vertex = [&](int v) VDBTET_KERNEL {
                 return Triple{mBatch[3 * v][i], mBatch[3 * v + 1][i], mBatch[3 * v + 2][i]};
@@ -66,12 +81,10 @@ void AngleSum::flush() {
         }
         mMin = std::min(mMin, least[0]);
         mMax = std::max(mMax, most[0]);
-        for (int bin = 0; bin < kBins - 1; ++bin) {
-            const double edge = edges[bin];
-            std::int64_t beyond = 0, repeated = 0;
-            for (int i = 0; i < kAngles; ++i) beyond += squares[i] <= edge ? 1 : 0;
-            for (int k = 0; k < 6; ++k) repeated += squares[k * kBatch] <= edge ? 1 : 0;
-            mBeyond[bin] += beyond - (kBatch - count) * repeated;
+        for (int i = 0; i < kAngles; ++i) bins[i] = fineBin(squares[i], kFineBins);
+        for (int first = 0; first < kAngles; first += kBatch) {
+            for (int i = first; i < first + count; ++i)
+                ++mFine[std::size_t(2 * bins[i] + (squares[i] <= edges[bins[i]] ? 1 : 0))];
         }
     });
 }
@@ -81,23 +94,22 @@ void AngleSum::add(AngleSum& other) {
     other.flush();
     mMin = std::min(mMin, other.mMin);
     mMax = std::max(mMax, other.mMax);
-    mAngles += other.mAngles;
-    for (std::size_t i = 0; i < mBeyond.size(); ++i) mBeyond[i] += other.mBeyond[i];
+    for (std::size_t i = 0; i < mFine.size(); ++i) mFine[i] += other.mFine[i];
     for (std::size_t i = 0; i < mKnown.size(); ++i) mKnown[i] += other.mKnown[i];
 }
 
 AngleStats AngleSum::stats() {
     flush();
     AngleStats stats;
-    std::int64_t before = mAngles;
-    for (int bin = 0; bin < kBins; ++bin) {
-        const std::int64_t beyond = bin < kBins - 1 ? mBeyond[bin] : 0;
-        stats.histogram[bin] = before - beyond;
-        before = beyond;
+    const Edges& edges = fineEdges();
+    for (std::size_t bin = 0; bin < kFineBins; ++bin) {
+        const auto before = std::size_t(edges.beyond[bin]);
+        stats.histogram[before] += mFine[2 * bin];
+        if (mFine[2 * bin + 1] != 0) stats.histogram[before + 1] += mFine[2 * bin + 1];
     }
     if (mMax >= mMin) {
-        stats.min = angleOf(cosineOf(mMax));
-        stats.max = angleOf(cosineOf(mMin));
+        stats.min = angleOfSquare(mMax);
+        stats.max = angleOfSquare(mMin);
     }
     for (std::size_t i = 0; i < mKnown.size(); ++i) {
         if (mKnown[i] == 0) continue;
@@ -106,6 +118,45 @@ AngleStats AngleSum::stats() {
         stats.max = std::max(stats.max, 5.0 * double(i));
     }
     return stats;
+}
+
+std::vector<AngleSum::Part> AngleSum::parts() const {
+    const auto angleAt = [](double bin) { return angleOfSquare(std::min(bin / kFinePerUnit, 2.0) - 1.0); };
+    std::vector<Part> parts;
+    for (int bin = 0; bin < kFineBins; ++bin) {
+        const std::int64_t count = mFine[2 * std::size_t(bin)] + mFine[2 * std::size_t(bin) + 1];
+        if (count > 0) parts.push_back({angleAt(bin + 1.0), angleAt(bin), count});
+    }
+    for (std::size_t i = 0; i < mKnown.size(); ++i) {
+        if (mKnown[i] > 0) parts.push_back({5.0 * double(i), 5.0 * double(i), mKnown[i]});
+    }
+    std::sort(parts.begin(), parts.end(),
+              [](const Part& a, const Part& b) { return a.low + a.high < b.low + b.high; });
+    return parts;
+}
+
+AnglePercentiles AngleSum::percentiles() {
+    const AngleStats all = stats();
+    std::vector<Part> ascending = parts();
+    std::int64_t total = 0;
+    for (const Part& part : ascending) total += part.count;
+    /// Where so many angles have been passed; those of a part are taken to be spread evenly.
+    const auto angleAfter = [&](double count) {
+        for (const Part& part : ascending) {
+            if (count <= double(part.count))
+                return std::clamp(part.low + (part.high - part.low) * count / double(part.count), all.min,
+                                  all.max);
+            count -= double(part.count);
+        }
+        return all.max;
+    };
+    AnglePercentiles result;
+    for (std::size_t i = 0; i < AnglePercentiles::kPercents.size() && total > 0; ++i) {
+        const double count = AnglePercentiles::kPercents[i] / 100.0 * double(total);
+        result.low[i] = angleAfter(count);
+        result.high[i] = angleAfter(double(total) - count);
+    }
+    return result;
 }
 
 } // namespace vdbtet

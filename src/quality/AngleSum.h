@@ -8,10 +8,11 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 namespace vdbtet {
 
-/// @brief Extremes and histogram of angles; tets are collected and judged a batch at a time.
+/// @brief Extremes, histogram and percentiles of angles; tets are collected and judged a batch at a time.
 class AngleSum {
 public:
     explicit AngleSum(Isa isa = bestIsa()) : mIsa(isa) {}
@@ -37,18 +38,28 @@ public:
     void add(AngleSum& other);
 
     AngleStats stats();
+    AnglePercentiles percentiles();
 
 private:
     static constexpr int kBatch = 64;
-    static constexpr int kBins = 18;
+    static constexpr int kFineBins = 1024;
 
     void flush();
 
+    /// Some angles between two.
+    struct Part {
+        double low, high; ///< degrees
+        std::int64_t count;
+    };
+    /// All angles, ascending.
+    std::vector<Part> parts() const;
+
     Isa mIsa;
     double mMin = 1.0, mMax = -1.0; ///< of the signed squares of the cosines
-    std::int64_t mAngles = 0;
-    std::array<std::int64_t, kBins - 1> mBeyond{}; ///< measured angles of at least 10, 20, ... 170 degrees
-    std::array<std::int64_t, 36> mKnown{};         ///< angles of 0, 5, ... 175 degrees
+    /// Measured angles by the signed squares of their cosines, in fine bins from -1 to 1. Of each the second
+    /// count is of those at or beyond a multiple of 10 degrees that lies in the bin.
+    std::array<std::int64_t, 2 * kFineBins> mFine{};
+    std::array<std::int64_t, 36> mKnown{}; ///< angles of 0, 5, ... 175 degrees
 
     int mBatched = 0;
     double mBatch[12][kBatch]; ///< coordinates of the vertices

@@ -68,4 +68,7 @@ inline std::array<double, 6> dihedralCosines(const openvdb::Vec3d& a, const open
 /// @return the angle in degrees of a cosine that rounding may have taken out of [-1,1].
 double angleOf(double cosine);
 
+/// The same of its signed square.
+double angleOfSquare(double square);
+
 } // namespace vdbtet

@@ -23,6 +23,8 @@ double angleOf(double cosine) {
     return std::acos(std::clamp(cosine, -1.0, 1.0)) * kDegrees;
 }
 
+double angleOfSquare(double square) { return angleOf(std::copysign(std::sqrt(std::abs(square)), square)); }
+
 std::array<double, 6> dihedralAngles(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
     std::array<double, 6> angles = dihedralCosines(a, b, c, d);
     for (double& angle : angles) angle = angleOf(angle);

@@ -24,8 +24,8 @@ struct Pattern {
     }
 };
 
-/// Bits of three rows, of 16 bits each, of vertices about a vertex of the same lattice: the ends of long edges
-/// and, where octahedra are flipped, those of diagonals of rings.
+/// Bits of three rows, of 16 bits each, of vertices about a vertex of the same lattice: the ends of long
+/// edges and, where octahedra are flipped, those of diagonals of rings.
 /// @param beside  whether the rows are those at another x
 constexpr std::uint64_t ownRows(bool beside, bool flipped) {
     const std::uint64_t cross = 0x000200050002, all = 0x000700050007, middle = 0x000000020000;
@@ -48,9 +48,8 @@ public:
         : mVertices(vertices), mStars(vertices, flips), mKnown(std::size_t(1) << kKnownBits) {
         for (const bcc::Lattice lattice : {bcc::A, bcc::B}) {
             const int v = localIndex(lattice, 3, 3, 3); // any
-            mStars.forEachLatticeTet(v, [&](const std::array<int, 4>& tet) {
-                mRegular[lattice].add(faceOpposite(tet, v));
-            });
+            mStars.forEachLatticeTet(
+                v, [&](const std::array<int, 4>& tet) { mRegular[lattice].add(faceOpposite(tet, v)); });
             mRegular[lattice].close();
         }
     }

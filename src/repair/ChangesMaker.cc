@@ -69,7 +69,8 @@ void ChangesMaker::noteFace(const Star& star, int t, int side) {
     const int apex = star.link.name(star.link.corner(t, (side + 2) % 3)),
               otherApex = star.link.name(star.link.otherCorner(beyond, t));
     // Two tets share one face; but those that no surface tile owns are all alike here.
-    if (!mFaces.insert({std::min(id, other), std::max(id, other), other < 0 ? apex - stepToOwner(tet) : 0}).second)
+    if (!mFaces.insert({std::min(id, other), std::max(id, other), other < 0 ? apex - stepToOwner(tet) : 0})
+             .second)
         return;
 
     const auto owner = [&](LinkMask in) { return has(in, t) == has(in, beyond) ? 0 : has(in, t) ? 1 : 2; };

@@ -2,8 +2,8 @@
 /// From toggled tets and bad vertices to what each tile has to know.
 #pragma once
 
-#include "repair/Rounds.h"
 #include "destinations/Changes.h"
+#include "repair/Rounds.h"
 
 #include <vdbtet/VolumeToTets.h>
 

@@ -13,7 +13,8 @@ using LinkMask = std::uint64_t;
 
 class Link {
 public:
-    /// An octahedron that is flipped onto a vertex adds two tets to the lattice's 24, and there is room for 12.
+    /// An octahedron that is flipped onto a vertex adds two tets to the lattice's 24, and there is room
+    /// for 12.
     static constexpr int kMostTriangles = 48;
     static constexpr int kMostVertices = 26;
 
@@ -53,13 +54,13 @@ public:
 
     /// @brief How far a part of the link is from a single disc, or from all of the sphere, or from nothing:
     /// then it is 0.
-    /// @details One for each fan too many, for each wedge too many about a link vertex, and, for each fan, how
-    /// far it is from a disc where wedges are taken as apart. A fan is a class of triangles joined through
-    /// edges, a wedge of those about a vertex.
+    /// @details One for each fan too many, for each wedge too many about a link vertex, and, for each fan,
+    /// how far it is from a disc where wedges are taken as apart. A fan is a class of triangles joined
+    /// through edges, a wedge of those about a vertex.
     int badness(LinkMask in) const;
 
-    /// @return the Euler characteristic of a fan, counting a vertex once for each of its wedges: 1 for a disc,
-    /// less for one with holes.
+    /// @return the Euler characteristic of a fan, counting a vertex once for each of its wedges: 1 for a
+    /// disc, less for one with holes.
     int euler(LinkMask fan) const;
 
     /// @return how many wedges of @a in are about a vertex, where not all are; else 0.

@@ -23,6 +23,7 @@ Repair repairBoundary(const Vertices& vertices, const Flips& flips, Boundary mod
     maker.addTets(repair.counts);
     if (mode == Boundary::Manifold) maker.split(repair.counts);
     repair.counts.left = mode == Boundary::Manifold ? 0 : std::int64_t(rounds.bad().size());
+    repair.leavesSurface = rounds.leavesSurface() || maker.leavesSurface();
     repair.changes = maker.take();
     return repair;
 }

@@ -4,10 +4,10 @@
 #pragma once
 
 #include "Parallel.h"
+#include "destinations/Changes.h"
 #include "destinations/LocalVertices.h"
 #include "flips/Flips.h"
 #include "repair/BoundaryCheck.h"
-#include "destinations/Changes.h"
 
 #include <vdbtet/VolumeToTets.h>
 
@@ -18,6 +18,9 @@ namespace vdbtet {
 struct Repair {
     Changes changes;       ///< empty where nothing was
     BoundaryCounts counts; ///< what was found and done
+    /// Whether tets are concerned that no surface tile owns: then all is to be done again with a margin of
+    /// one more cell, where that cannot be.
+    bool leavesSurface = false;
 };
 
 /// @brief Find the vertices where the boundary is not a surface, and mend it as far as @a mode says.

@@ -179,11 +179,13 @@ Candidate Rounds::bestFill(const Star& star) {
     const auto add = [&](LinkMask gap) {
         if ((gap & ~star.ambiguous) == 0) gaps.push_back(gap);
     };
-    forEachPart(out, [&](int from, LinkMask among) { return star.link.joined(from, among); }, add);
+    forEachPart(
+        out, [&](int from, LinkMask among) { return star.link.joined(from, among); }, add);
     for (int v = 0; v < star.link.vertices(); ++v) {
         if (star.link.wedges(v, star.in) < 2) continue;
-        forEachPart(out & star.link.at(v),
-                    [&](int from, LinkMask among) { return star.link.joinedAround(v, from, among); }, add);
+        forEachPart(
+            out & star.link.at(v),
+            [&](int from, LinkMask among) { return star.link.joinedAround(v, from, among); }, add);
     }
     for (LinkMask left = star.ambiguous; left != 0; left &= left - 1) gaps.push_back(left & ~(left - 1));
     std::sort(gaps.begin(), gaps.end());
@@ -225,7 +227,10 @@ Candidate Rounds::bestPeel(const Star& star) {
     Candidate best;
     const auto offer = [&](LinkMask tets) {
         Candidate one = candidate(star, tets);
-        if (one.tets.front() < 0) return; // of a tile far from the surface, which keeps all
+        if (one.tets.front() < 0) {
+            mLeavesSurface = true;
+            return;
+        }
         if (best.tets.empty() || std::tie(one.volume, one.tets) < std::tie(best.volume, best.tets))
             best = std::move(one);
     };
@@ -234,11 +239,12 @@ Candidate Rounds::bestPeel(const Star& star) {
         if (star.link.euler(fan) < 1) offer(fan);
         for (int v = 0; v < star.link.vertices(); ++v) {
             if (star.link.wedges(v, fan) < 2) continue;
-            forEachPart(fan & star.link.at(v),
-                        [&](int from, LinkMask among) { return star.link.joinedAround(v, from, among); },
-                        [&](LinkMask wedge) {
-                            if (joinedBeyond(star, v, wedge, fan)) offer(wedge);
-                        });
+            forEachPart(
+                fan & star.link.at(v),
+                [&](int from, LinkMask among) { return star.link.joinedAround(v, from, among); },
+                [&](LinkMask wedge) {
+                    if (joinedBeyond(star, v, wedge, fan)) offer(wedge);
+                });
         }
     });
     return best;

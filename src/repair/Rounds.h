@@ -7,6 +7,7 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -35,6 +36,9 @@ public:
     /// The vertices of all tets that were put in or taken out, ascending.
     const std::vector<std::int64_t>& changed() const { return mChanged; }
 
+    /// @return whether a candidate was given up as no surface tile owns some of its tets.
+    bool leavesSurface() const { return mLeavesSurface; }
+
     void read(std::int64_t vertex, Star& star) { reader().read(vertex, mToggled, star); }
     StarReader& reader() { return *mReaders.local(); }
 
@@ -58,6 +62,7 @@ private:
     const Vertices& mVertices;
     ToggledTets mToggled;
     std::vector<std::int64_t> mBad, mChanged;
+    std::atomic<bool> mLeavesSurface{false};
     tbb::enumerable_thread_specific<std::unique_ptr<StarReader>> mReaders;
 };
 

@@ -19,7 +19,8 @@ StarReader::Surrounding& StarReader::surroundings(TileRef tile) {
 
 std::int64_t StarReader::idOf(TileRef tile, int local) const {
     const int n = bitOf(local), x = PaddedMask::x(n), y = PaddedMask::y(n), z = PaddedMask::z(n);
-    const TileRef owner = mVertices.layout.neighbours[tile][neighbourSlot(tileStep(x), tileStep(y), tileStep(z))];
+    const TileRef owner =
+        mVertices.layout.neighbours[tile][neighbourSlot(tileStep(x), tileStep(y), tileStep(z))];
     if (owner < 0) return -1;
     return VertexId::of(owner, latticeOf(local), TileMask::bit(x & 7, y & 7, z & 7));
 }
@@ -34,10 +35,10 @@ void StarReader::read(std::int64_t vertex, const ToggledTets& toggled, Star& sta
         const LinkMask bit = LinkMask(1) << star.size;
         // Tets that some other tile than a surface tile owns are never toggled, and need no id.
         const std::int64_t spine = idOf(star.tile, tet.name.lower);
-        const std::int64_t id = spine < 0 ? -1
-                                          : TetId::of(VertexId::tile(spine),
-                                                      tetCode(tet.name.lattice, tet.name.axis, tet.name.number,
-                                                              VertexId::bit(spine)));
+        const std::int64_t id =
+            spine < 0 ? -1
+                      : TetId::of(VertexId::tile(spine), tetCode(tet.name.lattice, tet.name.axis,
+                                                                 tet.name.number, VertexId::bit(spine)));
         const bool isToggled = std::binary_search(toggled.begin(), toggled.end(), id);
         const bool before = tet.presence == Presence::InMesh;
         if (before) star.inBefore |= bit;

@@ -2,9 +2,9 @@
 /// Reads the stars of vertices anywhere in the mesh, one after another, while it is being repaired.
 #pragma once
 
+#include "destinations/Changes.h"
 #include "repair/BoundaryCheck.h"
 #include "repair/Link.h"
-#include "destinations/Changes.h"
 #include "tets/Stars.h"
 
 #include <openvdb/Types.h>
@@ -58,7 +58,9 @@ public:
     std::int64_t idOf(TileRef tile, int local) const;
 
     /// Where a vertex of a star is, in lattice units, from the star's tile.
-    openvdb::Vec3d position(const Star& star, int local) { return surroundings(star.tile).vertices.position(local); }
+    openvdb::Vec3d position(const Star& star, int local) {
+        return surroundings(star.tile).vertices.position(local);
+    }
 
 private:
     struct Surrounding {

@@ -90,8 +90,8 @@ void Stars::load(TileRef tile, const LocalStates& states) {
         for (const TetCode code : changes->tets) {
             if (!borderOf(slot).test(tetBit(code))) continue;
             const auto lattice = bcc::Lattice(tetLattice(code));
-            mChanged.push_back(keyOf({lattice, tetAxis(code), tetNumber(code),
-                                      localIndex(lattice, tetBit(code)) + shift}));
+            mChanged.push_back(
+                keyOf({lattice, tetAxis(code), tetNumber(code), localIndex(lattice, tetBit(code)) + shift}));
         }
     }
     std::sort(mChanged.begin(), mChanged.end());
@@ -100,8 +100,7 @@ void Stars::load(TileRef tile, const LocalStates& states) {
     for (const bcc::Lattice spine : {bcc::A, bcc::B}) {
         for (int axis = 0; axis < 3; ++axis) {
             mLocalFlips.mask(spine, axis).forEach([&](int lower) {
-                const auto slice =
-                    std::uint64_t(mLocalFlips.slice(axis, spine * kLocalLattice + lower));
+                const auto slice = std::uint64_t(mLocalFlips.slice(axis, spine * kLocalLattice + lower));
                 for (std::size_t i = 0; i < 6; ++i) {
                     const bcc::Vertex& at = bcc::kOctahedra[spine][axis][i];
                     const int x = PaddedMask::x(lower) + at.x, y = PaddedMask::y(lower) + at.y,

@@ -92,7 +92,8 @@ public:
 
     /// The L_A spines along @a axis whose octahedra may have tets in the mesh.
     TileMask someTets(int axis) const {
-        return mFlippedA[axis] | mLattice[axis][0] | mLattice[axis][1] | mLattice[axis][2] | mLattice[axis][3];
+        return mFlippedA[axis] | mLattice[axis][0] | mLattice[axis][1] | mLattice[axis][2] |
+               mLattice[axis][3];
     }
 
     /// Call @a visit(LocalTet) for each tet of a flipped octahedron of the L_A spine from @a n along @a axis.

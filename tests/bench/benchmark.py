@@ -185,7 +185,8 @@ def print_stages(fixtures):
     stages = fixtures[0].stages()
     band = fixtures[0].band()
     rows = [(name, [name]) for name in stages]
-    rows += [(f"band: {band[0]} to {band[-1]}", band), ("volumeToTets, chunks dropped", ["volumeToTets"]),
+    rows += [(f"band: {band[0]} to {band[-1]}", band), ("optimize, to 30 degrees", ["optimize"]),
+             ("volumeToTets, chunks dropped", ["volumeToTets"]),
              ("volumeToTets, into memory", ["wholeMesh"]), ("OpenVDB's volumeToMesh", ["volumeToMesh"]),
              ("memcpy of the mesh", ["memcpy"])]
     print_table(["ms"] + [f.name for f in fixtures],
@@ -198,6 +199,7 @@ def print_ratios(fixtures):
         ("band / volumeToMesh", "0.5", lambda f: f.ratio(f.band(), "volumeToMesh")),
         ("serial worklist / band", "0.01", lambda f: f.seconds(["worklist"]) / f.seconds(f.band())),
         ("band with tiles / volumeToMesh", "", lambda f: f.ratio(["tiles"] + f.band(), "volumeToMesh")),
+        ("optimize, to 30 degrees / volumeToMesh", "8, aim 3", lambda f: f.ratio(["optimize"], "volumeToMesh")),
         ("whole mesh into memory / memcpy of it", "2, aim 1.3", lambda f: f.ratio(["wholeMesh"], "memcpy")),
         ("vdb_tet to VTU / (read + cp of the file)", "1.5", Fixture.process_ratio),
         ("peak memory beyond the grid / (300 B a surface vertex + 200 MB)", "1", Fixture.memory_ratio),

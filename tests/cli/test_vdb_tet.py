@@ -98,11 +98,32 @@ class VdbTet(unittest.TestCase):
             ("format of the surface o.wav", ["sphere.vdb", "o.vtu", "--surface", "o.wav"]),
             ("--grade", ["sphere.vdb", "o.vtu", "--max-size", "4"]),
             ("--max-size", ["sphere.vdb", "o.vtu", "--grade", "--max-size", "0"]),
+            ("--sweeps", ["sphere.vdb", "o.vtu", "--sweeps", "4"]),
+            ("--sweeps", ["sphere.vdb", "o.vtu", "--optimize", "--sweeps", "0"]),
+            ("from 1 to 38", ["sphere.vdb", "o.vtu", "--optimize", "39"]),
+            ("--optimize", ["sphere.vdb", "o.vtu", "--optimize=much"]),
             ("smaller than the spacing", ["sphere.vdb", "o.vtu", "--grade", "--max-size", "1e-6"]),
         ]:
             with self.subTest(arguments):
                 self.assert_fails(2, re.escape(pattern), *arguments)
         self.assertEqual(self.created(), [])
+
+    def test_optimize(self):
+        for arguments, target in [
+            (["sphere.vdb", "o.vtu", "--optimize"], 30),
+            (["--optimize", "sphere.vdb", "o.vtu"], 30),
+            (["--optimize", "33", "sphere.vdb", "o.vtu"], 33),
+            (["sphere.vdb", "--optimize=33", "o.vtu", "--sweeps", "9"], 33),
+        ]:
+            with self.subTest(arguments):
+                text = self.assert_meshes(*arguments, "--report", "o.json")
+                with open("o.json") as file:
+                    report = json.load(file)
+                self.assertGreaterEqual(report["angles"]["min"], target)
+                self.assertLess(report["angles"]["minBefore"], 30)
+                self.assertGreater(report["verticesMoved"], 0)
+                self.assertIn("optimize", [stage["name"] for stage in report["stages"]])
+                self.assertRegex(text, r"\noptimized +from \d+\.\d\d to \d+\.\d\d degrees; \d+ points moved")
 
     def test_bad_input(self):
         with open("text.vdb", "w") as file:

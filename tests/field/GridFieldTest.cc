@@ -44,7 +44,7 @@ void requireCovered(const openvdb::FloatGrid& grid, const openvdb::CoordBBox& vo
     const Frame frame = makeFrame(grid.transform(), voxelsPerCell * shortestVoxelEdge(grid.transform()));
     const GridField<openvdb::FloatGrid> field(grid, frame, Level{0.0, true});
     Interrupt interrupt(nullptr);
-    const auto tiles = field.surfaceTiles(1 << 20, interrupt);
+    const auto tiles = field.surfaceTiles(1 << 20, 0, interrupt);
     REQUIRE(!tiles.empty());
     const std::set<Coord> named(tiles.begin(), tiles.end());
     const auto sampler = field.sampler();

@@ -114,7 +114,7 @@ class Hdf(FormatTest):
 
     def test_compression_that_cannot_be(self):
         for message, arguments in [
-            ("the format npz is written without compression; vtu and vtkhdf have it", ["mesh.npz", "--compress"]),
+            ("the format npz is written without compression; those with it are vtu, vtkhdf", ["mesh.npz", "--compress"]),
             ("the format vtu-inline is", ["mesh.vtu", "--format", "vtu-inline", "--compress"]),
             ("--compress: ", ["mesh.vtu", "--compress=0"]),
             ("--compress: ", ["mesh.vtu", "--compress=10"]),

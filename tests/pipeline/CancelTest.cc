@@ -60,7 +60,7 @@ TEST_CASE("a run stops wherever its interrupter says so") {
     CHECK(never.asked() > 20);
 
     bool stoppedBeforeBegin = false, stoppedAfterBegin = false;
-    for (std::int64_t n = 1; n <= never.asked(); n += 1 + n / 8) {
+    for (std::int64_t n = 1; n <= never.asked(); n += 1 + n / 32) {
         StopAt interrupter(n);
         WatchedSink sink;
         const Report stopped = volumeToTets(*grid, sink, {}, &interrupter);
@@ -78,6 +78,30 @@ TEST_CASE("a run stops wherever its interrupter says so") {
     }
     CHECK(stoppedBeforeBegin);
     CHECK(stoppedAfterBegin);
+}
+
+TEST_CASE("optimisation stops when its interrupter says so") {
+    const auto grid = levelSet(noiseBall(2, {0.3, -0.2, 0.1}, 16, 3));
+    Options options;
+    options.optimize = 35;
+    const Meshed whole = meshOf(*grid, options);
+    StopAt never(std::int64_t(1) << 60);
+    TetMesh undisturbed;
+    volumeToTets(*grid, undisturbed, options, &never);
+    requireIdentical(undisturbed, whole.mesh);
+    bool stoppedInStage = false;
+    for (std::int64_t n = 1; n <= never.asked(); n += 1 + n / 16) {
+        StopAt interrupter(n);
+        WatchedSink sink;
+        const Report stopped = volumeToTets(*grid, sink, options, &interrupter);
+        if (stopped.cancelled) {
+            CHECK_FALSE(sink.ended);
+            stoppedInStage = stoppedInStage || stopped.stages.back().name == "optimize";
+        } else {
+            requireIdentical(sink.mesh, whole.mesh);
+        }
+    }
+    CHECK(stoppedInStage);
 }
 
 TEST_CASE("a run that is to stop at once does no work") {

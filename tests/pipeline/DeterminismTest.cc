@@ -33,6 +33,10 @@ void requireSameReport(const Report& a, const Report& b) {
     CHECK(a.surfaceTiles == b.surfaceTiles);
     CHECK(a.cutEdges == b.cutEdges);
     CHECK(a.tieBroken == b.tieBroken);
+    CHECK(a.verticesMoved == b.verticesMoved);
+    CHECK(a.sweeps == b.sweeps);
+    CHECK(a.anglesBefore.min == b.anglesBefore.min);
+    CHECK(a.anglesBefore.max == b.anglesBefore.max);
     CHECK(a.angles.min == b.angles.min);
     CHECK(a.angles.max == b.angles.max);
     CHECK(a.angles.histogram == b.angles.histogram);
@@ -75,4 +79,15 @@ TEST_CASE("any number of threads gives the same bytes: graded") {
     requireDeterministic(*levelSet(noiseBall(1, {0.1, 0.2, 0.3}, 25, 6)), options);
     options.maxSize = 2.0;
     requireDeterministic(*levelSet(sphere({0.3, -0.2, 0.1}, 30)), options);
+}
+
+TEST_CASE("any number of threads gives the same bytes: optimised") {
+    for (const bool grade : {false, true}) {
+        Options options = atVoxels(0.8);
+        options.optimize = 34;
+        options.grade = grade;
+        requireDeterministic(*levelSet(torus({0.3, -0.2, 0.1}, 25, 11)), options);
+        requireDeterministic(*levelSet(noiseBall(1, {0.1, 0.2, 0.3}, 22, 2)), options);
+        requireDeterministic(*randomSigns(24, 1), options);
+    }
 }

@@ -107,6 +107,10 @@ TEST_CASE("options out of range are refused") {
         requireRefused<BadOption>(*ball(), with([=](Options& o) { o.tiger = tiger; }));
     for (const double value : {bad[2], bad[3], -bad[3]})
         requireRefused<BadOption>(*ball(), with([=](Options& o) { o.isovalue = value; }));
+    for (const double target : {0.5, 38.5, -30.0, bad[2], bad[3]})
+        requireRefused<BadOption>(*ball(), with([=](Options& o) { o.optimize = target; }));
+    for (const int sweeps : {-1, 0, 1001})
+        requireRefused<BadOption>(*ball(), with([=](Options& o) { o.sweeps = sweeps; }));
     for (const std::int64_t limit : {std::int64_t(0), std::int64_t(-1)})
         requireRefused<BadOption>(*ball(), with([=](Options& o) { o.maxSurfaceTiles = limit; }));
 }

@@ -139,22 +139,22 @@ TEST_CASE("points lie on the trilinear isosurface or on the lattice", "[property
 
 TEST_CASE("a grid moved by a tile gives the mesh moved by a tile", "[property]") {
     const auto grid = lopsided();
-    const Meshed before = meshOf(*grid);
+    const Meshed before = meshOf(*grid, raw());
     for (const Coord& by : {Coord(8, 0, 0), Coord(-8, 16, -24), Coord(128, 8, -4096)}) {
-        const Meshed after = meshOf(*shifted(*grid, by));
+        const Meshed after = meshOf(*shifted(*grid, by), raw());
         requireSame(after.mesh, movedMesh(before.mesh, [&](const auto& p) { return p + by.asVec3d(); }),
                     1e-6);
     }
     // Also by less than a tile: the lattice is the same, though its tiles are others.
     const Coord by(3, -5, 1);
-    requireSame(meshOf(*shifted(*grid, by)).mesh,
+    requireSame(meshOf(*shifted(*grid, by), raw()).mesh,
                 movedMesh(before.mesh, [&](const auto& p) { return p + by.asVec3d(); }), 1e-6);
 }
 
 TEST_CASE("a grid turned or mirrored about its axes gives the mesh turned or mirrored", "[property]") {
     const auto grid = lopsided();
     for (const double voxels : {1.0, 1.4}) {
-        const Meshed before = meshOf(*grid, atVoxels(voxels));
+        const Meshed before = meshOf(*grid, raw(atVoxels(voxels)));
         for (const bool cycle : {false, true}) {
             for (int mirrored = 0; mirrored < 8; ++mirrored) {
                 const std::array<bool, 3> mirror{bool(mirrored & 1), bool(mirrored & 2), bool(mirrored & 4)};
@@ -164,7 +164,7 @@ TEST_CASE("a grid turned or mirrored about its axes gives the mesh turned or mir
                         if (mirror[axis]) q[axis] = -q[axis];
                     return q;
                 };
-                const Meshed after = meshOf(*turned(*grid, cycle, mirror), atVoxels(voxels));
+                const Meshed after = meshOf(*turned(*grid, cycle, mirror), raw(atVoxels(voxels)));
                 requireSame(after.mesh, movedMesh(before.mesh, move), 1e-6);
                 CHECK(examine(after.mesh).volume == Approx(examine(before.mesh).volume));
             }

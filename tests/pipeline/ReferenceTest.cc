@@ -22,9 +22,7 @@ enum class Ties {
 
 ReferenceMesh requireReference(const openvdb::GridBase& grid, const Options& options,
                                Ties ties = Ties::None) {
-    Options raw = options; // the method alone
-    raw.boundary = Boundary::Raw;
-    const Meshed fast = meshOf(grid, raw);
+    const Meshed fast = meshOf(grid, raw(options)); // the method alone
     const GridField field(grid, fast.report.isovalue, fast.report.inside, fast.report.spacing);
     const Labelling labelling = ties == Ties::None ? Labelling::Search : Labelling::Kernel;
     const ReferenceMesh slow = referenceMesh(field.phi(), field.box(), options.tiger, labelling);

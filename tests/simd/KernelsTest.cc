@@ -136,9 +136,9 @@ TEST_CASE("angles are summed up the same on every instruction set", "[simd]") {
                 for (auto& v : p) v = random.inBox(-1, 1);
                 angles.add(p[0], p[1], p[2], p[3]);
             }
-            return angles.stats();
+            return angles;
         };
-        const AngleStats plain = sum(Isa::Plain);
+        const AngleStats plain = sum(Isa::Plain).stats();
 
         Random random(3);
         AngleStats expected;
@@ -155,11 +155,38 @@ TEST_CASE("angles are summed up the same on every instruction set", "[simd]") {
         REQUIRE(plain.min == Approx(expected.min).margin(1e-6));
         REQUIRE(plain.max == Approx(expected.max).margin(1e-6));
         for (Isa isa : vectorSets()) {
-            const AngleStats other = sum(isa);
+            AngleSum vectors = sum(isa);
+            const AngleStats other = vectors.stats();
+            REQUIRE(vectors.percentiles().low == sum(Isa::Plain).percentiles().low);
+            REQUIRE(vectors.percentiles().high == sum(Isa::Plain).percentiles().high);
             REQUIRE(other.min == plain.min);
             REQUIRE(other.max == plain.max);
             REQUIRE(other.histogram == plain.histogram);
         }
+    }
+}
+
+TEST_CASE("percentiles are those of the sorted angles", "[simd]") {
+    Random random(5);
+    AngleSum sum;
+    std::vector<double> angles;
+    for (int i = 0; i < 20000; ++i) {
+        // Mostly fair tets, and some of all sorts.
+        const double spread = i % 50 == 0 ? 1.0 : 0.2;
+        Vec3d p[4] = {Vec3d(0, 0, 0), Vec3d(1, 0, 0), Vec3d(0.5, 0.9, 0), Vec3d(0.5, 0.3, 0.8)};
+        for (auto& v : p) v += random.inBox(-spread, spread);
+        sum.add(p[0], p[1], p[2], p[3]);
+        for (double angle : dihedralAngles(p[0], p[1], p[2], p[3])) angles.push_back(angle);
+    }
+    constexpr std::array<int, 6> kKnown{60, 60, 60, 60, 90, 90};
+    sum.addLatticeTets(20000);
+    for (int i = 0; i < 20000; ++i) angles.insert(angles.end(), kKnown.begin(), kKnown.end());
+    std::sort(angles.begin(), angles.end());
+    const AnglePercentiles found = sum.percentiles();
+    for (std::size_t i = 0; i < found.low.size(); ++i) {
+        const auto rank = std::size_t(AnglePercentiles::kPercents[i] / 100 * double(angles.size()));
+        CHECK(found.low[i] == Approx(angles[rank]).margin(0.2));
+        CHECK(found.high[i] == Approx(angles[angles.size() - 1 - rank]).margin(0.2));
     }
 }
 

@@ -25,4 +25,10 @@ inline Options atVoxels(double voxels, int tiger = 2) {
     return options;
 }
 
+/// Without repair, which breaks ties by the place in the lattice, and doubles points.
+inline Options raw(Options options = {}) {
+    options.boundary = Boundary::Raw;
+    return options;
+}
+
 } // namespace vdbtet::test

@@ -21,10 +21,10 @@ struct Stages {
     Layout layout;
     Labels labels;
 
-    explicit Stages(const openvdb::FloatGrid& grid, double voxels = 1.0)
+    explicit Stages(const openvdb::FloatGrid& grid, double voxels = 1.0, int margin = 0)
         : field(grid, makeFrame(grid.transform(), voxels * shortestVoxelEdge(grid.transform())),
                 Level{0.0, true}),
-          tiles(field.surfaceTiles(1 << 20, interrupt)), cuts(findCuts(field, tiles, interrupt)),
+          tiles(field.surfaceTiles(1 << 20, margin, interrupt)), cuts(findCuts(field, tiles, interrupt)),
           layout(makeLayout(tiles, cuts.signs, interrupt)),
           labels(labelVertices(layout, cuts.arrows, interrupt)) {}
 };
