@@ -32,17 +32,39 @@ std::filesystem::path followLinks(std::filesystem::path path) {
     throw FileError("cannot write " + path.string() + ": " + std::strerror(ELOOP));
 }
 
-/// Make a file of a name that is not taken.
-/// @return its descriptor, or -1 and errno
-int makeTemporary(const std::string& target, std::string& path) {
+/// Find a name beside the target that is not taken, for a file that @a make(path) makes.
+/// @return what that returns, or -1 and errno
+template <typename Make>
+int makeBeside(const std::string& target, std::string& path, const Make& make) {
     const auto directory = std::filesystem::path(target).parent_path();
     for (int attempt = 0;; ++attempt) {
         // Not derived from the target's name, which may be as long as a name can be.
         const auto name = ".vdbtet-" + std::to_string(::getpid()) + "-" + std::to_string(attempt) + ".tmp";
         path = directory / name;
-        const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (fd >= 0 || errno != EEXIST) return fd;
+        const int result = make(path.c_str());
+        if (result >= 0 || errno != EEXIST) return result;
     }
+}
+
+/// @return the descriptor of a new file, or -1 and errno
+int makeTemporary(const std::string& target, std::string& path) {
+    return makeBeside(target, path, [](const char* name) {
+        return ::open(name, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    });
+}
+
+std::string nameOfDescriptor(int fd) { return "/proc/self/fd/" + std::to_string(fd); }
+
+/// Make a file without a name, of which nothing is left however the process ends.
+/// @return its descriptor, or -1 where there are none, or they can get no name later
+int makeNameless(const std::string& target) {
+#ifdef O_TMPFILE
+    const auto directory = std::filesystem::path(target).parent_path();
+    const int fd = ::open(directory.empty() ? "." : directory.c_str(), O_RDWR | O_TMPFILE | O_CLOEXEC, 0666);
+    if (fd < 0 || ::access(nameOfDescriptor(fd).c_str(), F_OK) == 0) return fd;
+    ::close(fd);
+#endif
+    return -1;
 }
 
 /// @return 0 or the error's number
@@ -87,7 +109,8 @@ OutputFile::OutputFile(const std::string& path) : mPath(path), mTarget(followLin
     // A rename would replace a write-protected file without asking.
     if (replaces && ::access(mTarget.c_str(), W_OK) != 0) fail(errno);
 
-    mFd = makeTemporary(mTarget, mTemporary);
+    mFd = makeNameless(mTarget);
+    if (mFd < 0) mFd = makeTemporary(mTarget, mTemporary);
     if (mFd < 0) {
         const int error = errno;
         mTemporary.clear();
@@ -120,6 +143,16 @@ void OutputFile::readAt(std::uint64_t offset, void* data, std::size_t size) cons
 }
 
 void OutputFile::commit() {
+    if (mTemporary.empty()) {
+        const auto link = [this](const char* name) {
+            return ::linkat(AT_FDCWD, nameOfDescriptor(mFd).c_str(), AT_FDCWD, name, AT_SYMLINK_FOLLOW);
+        };
+        if (makeBeside(mTarget, mTemporary, link) != 0) {
+            const int error = errno;
+            mTemporary.clear();
+            fail(error);
+        }
+    }
     // Network file systems report a full disk no earlier than here. The descriptor is gone either way.
     const int fd = mFd;
     mFd = -1;
@@ -134,6 +167,8 @@ void OutputFile::fail(int error) const {
 
 SpoolFile::SpoolFile(OutputFile& target) : mTarget(target) {
     std::string name;
+    mFd = makeNameless(target.mTarget);
+    if (mFd >= 0) return;
     mFd = makeTemporary(target.mTarget, name);
     if (mFd < 0) target.fail(errno);
     ::unlink(name.c_str());

@@ -9,10 +9,12 @@
 namespace vdbtet {
 
 /// @brief Owns a temporary file in the target's directory; commit() renames it, the destructor removes it.
-/// @details A target that is a symbolic link stays one: the file it points to is replaced. The new file has
-/// the old one's permissions, or those the umask grants. Whoever opens the target meanwhile sees the old
-/// file. commit() does not wait for the disk: the promise holds when the program dies, not when the machine
-/// does. Every member but the destructor throws FileError with the target's path.
+/// @details Where the file system has files without a name the temporary file is such a one until commit(),
+/// so that nothing is left of it even when the process is killed. A target that is a symbolic link stays one:
+/// the file it points to is replaced. The new file has the old one's permissions, or those the umask grants.
+/// Whoever opens the target meanwhile sees the old file. commit() does not wait for the disk: the promise
+/// holds when the program dies, not when the machine does. Every member but the destructor throws FileError
+/// with the target's path.
 class OutputFile {
 public:
     /// @throw FileError also when the target exists and is not a regular file, or may not be written
@@ -36,7 +38,7 @@ private:
 
     std::string mPath;
     std::string mTarget;    // mPath with the links followed
-    std::string mTemporary; // empty once committed
+    std::string mTemporary; // empty where it has no name, and once committed
     int mFd = -1;
 };
 

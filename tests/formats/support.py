@@ -8,6 +8,7 @@ import os
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 VDB_TET, MAKE_FIXTURES = map(os.path.abspath, sys.argv[1:3])
@@ -32,6 +33,20 @@ def read_vtu(path):
     points = numpy_support.vtk_to_numpy(grid.GetPoints().GetData())
     tets = numpy_support.vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
     return points, tets
+
+
+def wait_until_writing(process):
+    """Until the process, which reads sphere.vdb, has another file of this folder open; it may have no name."""
+    links = f"/proc/{process.pid}/fd"
+    while process.poll() is None:
+        for link in os.listdir(links):
+            try:
+                path = os.readlink(os.path.join(links, link))
+            except FileNotFoundError:
+                continue  # closed meanwhile
+            if path.startswith(os.getcwd() + "/") and not path.endswith("sphere.vdb"):
+                return
+        time.sleep(0.001)
 
 
 class FormatTest(unittest.TestCase):

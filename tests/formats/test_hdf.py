@@ -4,9 +4,8 @@ import os
 import resource
 import signal
 import subprocess
-import time
 
-from support import VDB_TET, FormatTest, main, need, read_vtu
+from support import VDB_TET, FormatTest, main, need, read_vtu, wait_until_writing
 
 np = need("numpy")
 
@@ -156,8 +155,7 @@ class Hdf(FormatTest):
                 # Fine enough to take far longer than the signal needs to arrive.
                 process = subprocess.Popen([VDB_TET, "sphere.vdb", out, "-v", "0.05", *options],
                                            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-                while process.poll() is None and not any(name.startswith(".vdbtet-") for name in os.listdir()):
-                    time.sleep(0.001)
+                wait_until_writing(process)
                 process.send_signal(signal.SIGTERM)
                 out, err = process.communicate(timeout=120)
                 self.assertEqual((process.returncode, out, err),
