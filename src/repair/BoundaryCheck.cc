@@ -24,13 +24,48 @@ struct Pattern {
     }
 };
 
-/// Bits of three rows, of 16 bits each, of vertices about a vertex of the same lattice: the ends of long
-/// edges and, where octahedra are flipped, those of diagonals of rings.
-/// @param beside  whether the rows are those at another x
-constexpr std::uint64_t ownRows(bool beside, bool flipped) {
-    const std::uint64_t cross = 0x000200050002, all = 0x000700050007, middle = 0x000000020000;
-    return beside ? (flipped ? cross | 0x000000070000 : middle) : (flipped ? all : cross);
+/// Vertices about a vertex of the same lattice, in three rows of 16 bits at each of three x.
+using OwnRows = std::array<std::uint64_t, 3>;
+
+constexpr void setBit(OwnRows& rows, int dx, int dy, int dz) {
+    rows[std::size_t(dx + 1)] |= std::uint64_t(1) << (16 * (dy + 1) + dz + 1);
 }
+
+/// The ends of long edges.
+constexpr OwnRows longEdges() {
+    OwnRows rows{};
+    for (const int step : {-1, 1}) {
+        setBit(rows, step, 0, 0);
+        setBit(rows, 0, step, 0);
+        setBit(rows, 0, 0, step);
+    }
+    return rows;
+}
+constexpr OwnRows kLongEdges = longEdges();
+
+/// The far end of the new edge from a vertex, by its lattice, its role in an octahedron (Stars::slicesAt())
+/// and the slice.
+using FarEnds = std::array<std::array<std::array<OwnRows, 3>, 18>, 2>;
+constexpr FarEnds farEnds() {
+    FarEnds ends{};
+    std::size_t next[2] = {0, 0};
+    for (const bcc::Lattice spine : {bcc::A, bcc::B}) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const bcc::Octahedron& octahedron = bcc::kOctahedra[spine][std::size_t(axis)];
+            for (std::size_t i = 0; i < 6; ++i) {
+                const bcc::Vertex& v = octahedron[i];
+                const std::size_t role = next[v.lattice]++;
+                if (i < 2) continue;
+                const bcc::Vertex& o = octahedron[2 + i % 4]; // across the ring
+                const auto slice = std::size_t(i % 2 == 0 ? bcc::SliceA : bcc::SliceB);
+                setBit(ends[v.lattice][role][slice], o.x - v.x, o.y - v.y, o.z - v.z);
+            }
+        }
+    }
+    return ends;
+}
+constexpr FarEnds kFarEnds = farEnds();
+
 /// Bits of two rows, of the vertices of the other lattice.
 constexpr std::uint64_t kOtherRows = 0x00030003;
 
@@ -92,16 +127,22 @@ private:
                   lowestOther = lattice == bcc::A ? lowest : bitOf(v);
         Pattern pattern;
         pattern.slices = mStars.slicesAt(v);
-        const std::uint64_t beside = ownRows(true, pattern.slices != 0),
-                            here = ownRows(false, pattern.slices != 0);
+        OwnRows matters = kLongEdges;
+        for (std::uint64_t left = pattern.slices; left != 0;) {
+            const int role = lowestBit(left) / 2;
+            const std::uint64_t slice = left >> (2 * role) & 3;
+            for (std::size_t x = 0; x < 3; ++x) matters[x] |= kFarEnds[lattice][std::size_t(role)][slice][x];
+            left &= ~(std::uint64_t(3) << (2 * role));
+        }
         const PaddedMask &interior = mStates.interiorMask(lattice), &manifold = mStates.manifoldMask(lattice);
         // Of 16 bits of a row at most three are set: there is room for five.
-        pattern.own = (rowsAt(interior, lowest) & beside) | (rowsAt(interior, lowest + kSlab) & here) << 3 |
-                      (rowsAt(interior, lowest + 2 * kSlab) & beside) << 6 |
-                      (rowsAt(manifold, lowest) & beside) << 9 |
-                      (rowsAt(manifold, lowest + kSlab) & here) << 12;
+        pattern.own = (rowsAt(interior, lowest) & matters[0]) |
+                      (rowsAt(interior, lowest + kSlab) & matters[1]) << 3 |
+                      (rowsAt(interior, lowest + 2 * kSlab) & matters[2]) << 6 |
+                      (rowsAt(manifold, lowest) & matters[0]) << 9 |
+                      (rowsAt(manifold, lowest + kSlab) & matters[1]) << 12;
         const PaddedMask &interiorB = mStates.interiorMask(other), &manifoldB = mStates.manifoldMask(other);
-        pattern.others = (rowsAt(manifold, lowest + 2 * kSlab) & beside) |
+        pattern.others = (rowsAt(manifold, lowest + 2 * kSlab) & matters[2]) |
                          (rowsAt(interiorB, lowestOther) & kOtherRows) << 3 |
                          (rowsAt(interiorB, lowestOther + kSlab) & kOtherRows) << 5 |
                          (rowsAt(manifoldB, lowestOther) & kOtherRows) << 7 |

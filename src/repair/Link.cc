@@ -17,10 +17,12 @@ int lowest(LinkMask mask) { return __builtin_ctzll(mask); }
 void Link::add(const std::array<int, 3>& vertices) {
     assert(mTriangles < kMostTriangles);
     for (std::size_t i = 0; i < 3; ++i) {
-        int v = find(vertices[i]);
+        const std::size_t slot = slotOf(vertices[i]);
+        int v = mSlots[slot];
         if (v < 0) {
             assert(mVertices < kMostVertices);
             v = mVertices++;
+            mSlots[slot] = std::int8_t(v);
             mNames[v] = vertices[i];
             mAt[v] = 0;
         }
@@ -30,12 +32,14 @@ void Link::add(const std::array<int, 3>& vertices) {
     ++mTriangles;
 }
 
-int Link::find(int name) const {
-    for (int v = 0; v < mVertices; ++v) {
-        if (mNames[v] == name) return v;
-    }
-    return -1;
+/// The slot that has a name, or that it goes into.
+std::size_t Link::slotOf(int name) const {
+    std::size_t slot = std::uint32_t(name) * 0x9e3779b1u >> 26;
+    while (mSlots[slot] >= 0 && mNames[mSlots[slot]] != name) slot = (slot + 1) % mSlots.size();
+    return slot;
 }
+
+int Link::find(int name) const { return mSlots[slotOf(name)]; }
 
 void Link::close() {
     for (int t = 0; t < mTriangles; ++t) {

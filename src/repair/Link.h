@@ -18,7 +18,11 @@ public:
     static constexpr int kMostTriangles = 48;
     static constexpr int kMostVertices = 26;
 
-    void clear() { mTriangles = mVertices = 0; }
+    Link() { clear(); }
+    void clear() {
+        mTriangles = mVertices = 0;
+        mSlots.fill(-1);
+    }
 
     /// Add a triangle, counter-clockwise seen from outside or, of all of them, from inside.
     /// @param vertices  any numbers that tell vertices apart
@@ -71,6 +75,8 @@ private:
     std::array<std::array<std::uint8_t, 3>, kMostTriangles> mCorners;
     std::array<std::array<std::uint8_t, 3>, kMostTriangles> mBeyond; ///< the edge from corner i to the next
     std::array<int, kMostVertices> mNames;
+    std::array<std::int8_t, 64> mSlots; ///< vertices by a hash of their names, or -1
+    std::size_t slotOf(int name) const;
     std::array<LinkMask, kMostVertices> mAt;
 };
 

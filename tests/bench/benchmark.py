@@ -198,6 +198,7 @@ def print_ratios(fixtures):
     rows = [
         ("band / volumeToMesh", "0.5", lambda f: f.ratio(f.band(), "volumeToMesh")),
         ("serial worklist / band", "0.01", lambda f: f.seconds(["worklist"]) / f.seconds(f.band())),
+        ("repair, where nothing is bad / band", "", lambda f: f.seconds(["repair"]) / f.seconds(f.band())),
         ("band with tiles / volumeToMesh", "", lambda f: f.ratio(["tiles"] + f.band(), "volumeToMesh")),
         ("optimize, to 30 degrees / volumeToMesh", "8, aim 3", lambda f: f.ratio(["optimize"], "volumeToMesh")),
         ("whole mesh into memory / memcpy of it", "2, aim 1.3", lambda f: f.ratio(["wholeMesh"], "memcpy")),
