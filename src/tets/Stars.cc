@@ -4,6 +4,25 @@
 
 namespace vdbtet {
 
+namespace {
+
+/// The number in kRoles of each vertex of an octahedron, by the spine's lattice and axis.
+using RoleNumbers = std::array<std::array<std::array<int, 6>, 3>, 2>;
+constexpr RoleNumbers roleNumbers() {
+    RoleNumbers numbers{};
+    int next[2] = {0, 0};
+    for (std::size_t spine = 0; spine < 2; ++spine) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            for (std::size_t i = 0; i < 6; ++i)
+                numbers[spine][axis][i] = next[bcc::kOctahedra[spine][axis][i].lattice]++;
+        }
+    }
+    return numbers;
+}
+constexpr RoleNumbers kRoleOf = roleNumbers();
+
+} // namespace
+
 const std::array<std::array<Stars::Kin, 24>, 2> Stars::kKin = Stars::makeKin();
 const std::array<std::array<Stars::Role, 18>, 2> Stars::kRoles = Stars::makeRoles();
 
@@ -25,6 +44,12 @@ std::array<std::array<Stars::Kin, 24>, 2> Stars::makeKin() {
                     kin.ringAxis = (axis + ring.axisOffset) % 3;
                     for (int i = 0; i < 4; ++i)
                         kin.vertices[i] = octahedron[bcc::kSliceTets[bcc::S][number][i]] - v;
+                    kin.spineRole = kRoleOf[lattice][std::size_t(axis)][std::size_t(end)];
+                    const LocalOctahedron about =
+                        localOctahedron(bcc::other(lattice), kin.ringAxis, v + kin.ring);
+                    const auto place = std::find(about.begin(), about.end(), v) - about.begin();
+                    kin.ringRole =
+                        kRoleOf[bcc::other(lattice)][std::size_t(kin.ringAxis)][std::size_t(place)];
                     kin.number = number;
                     if (lattice == bcc::B) {
                         const LocalOctahedron owner = localOctahedron(bcc::A, kin.ringAxis, v + kin.ring);
@@ -41,25 +66,6 @@ std::array<std::array<Stars::Kin, 24>, 2> Stars::makeKin() {
     }
     return all;
 }
-
-namespace {
-
-/// The number in kRoles of each vertex of an octahedron, by the spine's lattice and axis.
-using RoleNumbers = std::array<std::array<std::array<int, 6>, 3>, 2>;
-constexpr RoleNumbers roleNumbers() {
-    RoleNumbers numbers{};
-    int next[2] = {0, 0};
-    for (std::size_t spine = 0; spine < 2; ++spine) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            for (std::size_t i = 0; i < 6; ++i)
-                numbers[spine][axis][i] = next[bcc::kOctahedra[spine][axis][i].lattice]++;
-        }
-    }
-    return numbers;
-}
-constexpr RoleNumbers kRoleOf = roleNumbers();
-
-} // namespace
 
 std::array<std::array<Stars::Role, 18>, 2> Stars::makeRoles() {
     std::array<std::array<Role, 18>, 2> all{};
@@ -81,7 +87,6 @@ std::array<std::array<Stars::Role, 18>, 2> Stars::makeRoles() {
 void Stars::load(TileRef tile, const LocalStates& states) {
     const Neighbours& neighbours = mVertices.layout.neighbours[tile];
     mStates = &states;
-    mLocalFlips.load(mFlips, neighbours);
     mChanged.clear();
     for (int slot = 0; slot < 27; ++slot) {
         const TileChanges* changes = mVertices.changesOf(neighbours[slot]);
@@ -97,21 +102,23 @@ void Stars::load(TileRef tile, const LocalStates& states) {
     std::sort(mChanged.begin(), mChanged.end());
     for (const int v : mAtFlips) mSlices[std::size_t(v)] = 0;
     mAtFlips.clear();
-    for (const bcc::Lattice spine : {bcc::A, bcc::B}) {
-        for (int axis = 0; axis < 3; ++axis) {
-            mLocalFlips.mask(spine, axis).forEach([&](int lower) {
-                const auto slice = std::uint64_t(mLocalFlips.slice(axis, spine * kLocalLattice + lower));
-                for (std::size_t i = 0; i < 6; ++i) {
-                    const bcc::Vertex& at = bcc::kOctahedra[spine][axis][i];
-                    const int x = PaddedMask::x(lower) + at.x, y = PaddedMask::y(lower) + at.y,
-                              z = PaddedMask::z(lower) + at.z;
-                    if (((x | y | z) & ~7) != 0) continue;
-                    const int v = localIndex(at.lattice, x, y, z);
-                    mSlices[std::size_t(v)] |= slice << (2 * kRoleOf[spine][std::size_t(axis)][i]);
-                    mAtFlips.push_back(v);
-                }
-            });
-        }
+    for (int slot = 0; slot < 27; ++slot) {
+        if (neighbours[slot] < 0) continue;
+        const TileMask& border = borderOf(slot);
+        const int dx = 8 * (slot / 9 - 1), dy = 8 * (slot / 3 % 3 - 1), dz = 8 * (slot % 3 - 1);
+        mFlips.forEach(neighbours[slot], [&](const Flip& flip) {
+            if (!border.test(flip.vertex)) return;
+            const auto& roles = kRoleOf[flip.lattice][std::size_t(flip.axis)];
+            for (std::size_t i = 0; i < 6; ++i) {
+                const bcc::Vertex& at = bcc::kOctahedra[flip.lattice][flip.axis][i];
+                const int x = (flip.vertex >> 6) + dx + at.x, y = (flip.vertex >> 3 & 7) + dy + at.y,
+                          z = (flip.vertex & 7) + dz + at.z;
+                if (((x | y | z) & ~7) != 0) continue;
+                const int v = localIndex(at.lattice, x, y, z);
+                mSlices[std::size_t(v)] |= std::uint64_t(flip.slice) << (2 * roles[i]);
+                mAtFlips.push_back(v);
+            }
+        });
     }
 }
 

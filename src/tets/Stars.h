@@ -56,8 +56,12 @@ public:
     void forEachTet(int v, Visit&& visit) const {
         const bcc::Lattice lattice = latticeOf(v);
         for (const Kin& kin : kKin[lattice]) visitLattice(v, kin, visit);
-        if (slicesAt(v) == 0) return;
-        for (const Role& role : kRoles[lattice]) visitFlipped(v, role, visit);
+        const std::uint64_t slices = slicesAt(v);
+        if (slices == 0) return;
+        for (std::size_t role = 0; role < kRoles[lattice].size(); ++role) {
+            const auto slice = bcc::Slice(slices >> (2 * role) & 3);
+            if (slice != bcc::S) visitFlipped(v, kRoles[lattice][role], slice, visit);
+        }
     }
 
     /// Call @a visit(vertices) for the tets that a vertex has where nothing is flipped, in the same order.
@@ -74,6 +78,7 @@ private:
     struct Kin {
         int spine, ring; ///< steps to the lower ends
         int spineAxis, ringAxis;
+        int spineRole, ringRole;     ///< the vertex's in these octahedra
         std::array<int, 4> vertices; ///< steps
         int number;                  ///< in the octahedron that is L_A's
 
@@ -108,15 +113,11 @@ private:
     static int keyOf(const TetName& name) {
         return ((name.lattice * 3 + name.axis) * 4 + name.number) * kLocalVertices + name.lower;
     }
-    bool flipped(bcc::Lattice lattice, int axis, int lower) const {
-        return mLocalFlips.mask(lattice, axis).test(bitOf(lower));
-    }
-
     template <typename Visit>
     void visitLattice(int v, const Kin& kin, Visit&& visit) const {
         const bcc::Lattice lattice = latticeOf(v);
-        if (flipped(lattice, kin.spineAxis, v + kin.spine)) return;
-        if (flipped(bcc::other(lattice), kin.ringAxis, v + kin.ring)) return;
+        const std::uint64_t slices = slicesAt(v);
+        if ((slices >> (2 * kin.spineRole) | slices >> (2 * kin.ringRole)) & 3) return;
         StarTet tet;
         tet.vertices = kin.at(v);
         tet.name = lattice == bcc::A ? TetName{bcc::A, kin.spineAxis, kin.number, v + kin.spine}
@@ -126,11 +127,10 @@ private:
     }
 
     template <typename Visit>
-    void visitFlipped(int v, const Role& role, Visit&& visit) const {
+    void visitFlipped(int v, const Role& role, bcc::Slice slice, Visit&& visit) const {
         const int lower = v + role.lower;
-        if (!flipped(role.lattice, role.axis, lower)) return;
         const LocalOctahedron octahedron = localOctahedron(role.lattice, role.axis, lower);
-        const auto& tets = bcc::kSliceTets[mLocalFlips.slice(role.axis, lower)];
+        const auto& tets = bcc::kSliceTets[slice];
         for (int number = 0; number < 4; ++number) {
             StarTet tet;
             bool atV = false;
@@ -148,7 +148,6 @@ private:
     const Vertices& mVertices;
     const Flips& mFlips;
     const LocalStates* mStates = nullptr;
-    LocalFlips mLocalFlips;
     std::array<std::uint64_t, kLocalVertices> mSlices{}; ///< slicesAt()
     std::vector<int> mAtFlips;                           ///< the vertices where it is not 0, some twice
     std::vector<int> mChanged; ///< keyOf() of the tets in and around the tile that are changed, ascending
