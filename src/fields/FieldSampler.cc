@@ -110,10 +110,6 @@ struct GridTypes {
 using Samplable = GridTypes<openvdb::FloatGrid, openvdb::DoubleGrid, openvdb::Int32Grid, openvdb::Int64Grid,
                             openvdb::Vec3SGrid, openvdb::Vec3DGrid, openvdb::Vec3IGrid>;
 
-} // namespace
-
-namespace {
-
 /// Fields at the points, or in the tets.
 class Fields {
 public:

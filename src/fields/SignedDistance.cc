@@ -64,8 +64,8 @@ typename GridT::Ptr distanceTo(const GridT& grid, const Level& level, double vox
     }
     const double band = std::max(kLeastVoxels, std::min(width / voxel, deepest) + 1.0);
     // Without signs: OpenVDB's are by what can be reached from outside, and cavities would be lost. And on
-    // one thread: which of two polygons equally near counts depends on the threads, and farther voxels follow
-    // it.
+    // one thread: which of two polygons equally near counts may depend on the threads, and farther voxels
+    // follow it.
     const openvdb::tools::QuadAndTriangleDataAdapter<openvdb::Vec3s, openvdb::Vec4I> surface(points, quads);
     openvdb::util::NullInterrupter none;
     typename GridT::Ptr result;

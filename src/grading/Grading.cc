@@ -14,8 +14,6 @@ using openvdb::Coord;
 
 namespace {
 
-using MovedMasks = std::vector<std::array<TileMask, 2>>;
-
 const TileMask kAll = TileMask::filled(true);
 
 /// What a tile without a record has inside the shape, or outside, where everything may be taken to exist.
@@ -28,7 +26,7 @@ OctantSet allAlike(int coarsest) {
 }
 
 /// The cells of a surface tile that must be octants.
-TileMask finestCells(const Layout& layout, const MovedMasks& moved, TileRef tile) {
+TileMask finestCells(const Layout& layout, const VertexMasks& moved, TileRef tile) {
     const Surroundings around(layout.neighbours[tile]);
     const PaddedMask a(around.masks(moved, bcc::A)), b(around.masks(moved, bcc::B));
     TileMask cells = b.core();
@@ -51,7 +49,7 @@ struct Units {
     }
 };
 
-Units finestUnits(const Layout& layout, const MovedMasks& moved, Interrupt& interrupt) {
+Units finestUnits(const Layout& layout, const VertexMasks& moved, Interrupt& interrupt) {
     std::vector<TileMask> cells(layout.surfaceTiles.size());
     parallelRanges(layout.surfaceCount(), interrupt, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t t = begin; t < end; ++t) cells[t] = finestCells(layout, moved, TileRef(t));
@@ -229,7 +227,7 @@ int coarsestLevel(const Layout& layout) {
     return level;
 }
 
-Grading gradeInterior(const Layout& layout, const std::vector<TileSigns>& signs, const MovedMasks& moved,
+Grading gradeInterior(const Layout& layout, const std::vector<TileSigns>& signs, const VertexMasks& moved,
                       int top, Interrupt& interrupt) {
     Grading grading;
     grading.top = top;

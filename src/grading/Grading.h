@@ -9,6 +9,7 @@
 
 #include "Parallel.h"
 #include "cuts/Arrows.h"
+#include "destinations/Changes.h"
 #include "grading/LocalOctants.h"
 #include "tiles/Layout.h"
 
@@ -76,8 +77,8 @@ struct Grading {
 /// @details A cell is an octant of level 0 iff a corner of it, its centre, or the centre of a face neighbour
 /// is moved. So all tets at moved vertices are the lattice's own, and the boundary is the same as the
 /// uniform mesh's. The others are those that weak balance then asks for.
-Grading gradeInterior(const Layout& layout, const std::vector<TileSigns>& signs,
-                      const std::vector<std::array<TileMask, 2>>& moved, int top, Interrupt& interrupt);
+Grading gradeInterior(const Layout& layout, const std::vector<TileSigns>& signs, const VertexMasks& moved,
+                      int top, Interrupt& interrupt);
 
 /// The level from which on no coarser octant fits into the inside.
 int coarsestLevel(const Layout& layout);

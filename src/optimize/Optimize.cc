@@ -27,8 +27,6 @@ int parityOf(const openvdb::Coord& tile) {
     return (tile.x() & 1) << 2 | (tile.y() & 1) << 1 | (tile.z() & 1);
 }
 
-using Masks = std::vector<std::array<TileMask, 2>>;
-
 /// Vertices in and around a tile.
 using Marks = std::array<PaddedMask, 2>;
 
@@ -36,7 +34,8 @@ void mark(Marks& marks, int local) { marks[latticeOf(local)].set(bitOf(local)); 
 
 /// @brief Add marks to the masks of their tiles; several threads at a time may.
 /// @param among  only those in these masks, if any
-void scatter(const Marks& marks, const Neighbours& neighbours, Masks& masks, const Masks* among = nullptr) {
+void scatter(const Marks& marks, const Neighbours& neighbours, VertexMasks& masks,
+             const VertexMasks* among = nullptr) {
     for (int lattice = 0; lattice < 2; ++lattice) {
         marks[lattice].forEach([&](int n) {
             const int x = PaddedMask::x(n), y = PaddedMask::y(n), z = PaddedMask::z(n);
@@ -91,7 +90,7 @@ public:
         : mVertices(vertices), mTets(vertices, flips), mPoor(quality) {}
 
     /// Mark those of the tets that @a tile owns.
-    void find(TileRef tile, Masks& masks) {
+    void find(TileRef tile, VertexMasks& masks) {
         mStates.load(mVertices, tile);
         if (!mStates.manifoldMask(bcc::A).any() && !mStates.manifoldMask(bcc::B).any()) return;
         mTets.load(tile, mStates);
@@ -138,9 +137,9 @@ private:
 
 /// What the sweeps know of the vertices of each surface tile.
 struct SweepState {
-    Masks dirty;   ///< to be looked at
-    Masks stuck;   ///< looked at in vain; worth another look when a neighbour has moved
-    Masks changed; ///< have been moved
+    VertexMasks dirty;   ///< to be looked at
+    VertexMasks stuck;   ///< looked at in vain; worth another look when a neighbour has moved
+    VertexMasks changed; ///< have been moved
 };
 
 /// Moves the vertices of one tile after another; one for each thread.
@@ -246,7 +245,7 @@ private:
 };
 
 /// Forget the offsets of vertices inside that never moved.
-void compact(const Vertices& vertices, const Masks& changed, Moves& moves) {
+void compact(const Vertices& vertices, const VertexMasks& changed, Moves& moves) {
     std::int64_t from = 0, to = 0;
     for (std::size_t t = 0; t < moves.moved.size(); ++t) {
         for (int lattice = 0; lattice < 2; ++lattice) {
@@ -273,7 +272,7 @@ Optimized optimize(const Field& field, const Vertices& vertices, const Flips& fl
     Vertices current = vertices;
     current.moves = &moves;
     const std::int64_t count = vertices.layout.surfaceCount();
-    const Masks none(vertices.layout.surfaceTiles.size());
+    const VertexMasks none(vertices.layout.surfaceTiles.size());
     SweepState state{none, none, none};
 
     tbb::enumerable_thread_specific<std::unique_ptr<PoorMarker>> markers(

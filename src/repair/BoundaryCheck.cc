@@ -43,19 +43,17 @@ constexpr OwnRows longEdges() {
 }
 constexpr OwnRows kLongEdges = longEdges();
 
-/// The far end of the new edge from a vertex, by its lattice, its role in an octahedron (Stars::slicesAt())
-/// and the slice.
-using FarEnds = std::array<std::array<std::array<OwnRows, 3>, 18>, 2>;
+/// The far end of the new edge from a vertex, by its lattice, its role in an octahedron and the
+/// slice.
+using FarEnds = std::array<std::array<std::array<OwnRows, 3>, kRoles>, 2>;
 constexpr FarEnds farEnds() {
     FarEnds ends{};
-    std::size_t next[2] = {0, 0};
     for (const bcc::Lattice spine : {bcc::A, bcc::B}) {
-        for (int axis = 0; axis < 3; ++axis) {
-            const bcc::Octahedron& octahedron = bcc::kOctahedra[spine][std::size_t(axis)];
-            for (std::size_t i = 0; i < 6; ++i) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const bcc::Octahedron& octahedron = bcc::kOctahedra[spine][axis];
+            for (std::size_t i = 2; i < 6; ++i) {
                 const bcc::Vertex& v = octahedron[i];
-                const std::size_t role = next[v.lattice]++;
-                if (i < 2) continue;
+                const auto role = std::size_t(kRolesOf[spine][axis][i]);
                 const bcc::Vertex& o = octahedron[2 + i % 4]; // across the ring
                 const auto slice = std::size_t(i % 2 == 0 ? bcc::SliceA : bcc::SliceB);
                 setBit(ends[v.lattice][role][slice], o.x - v.x, o.y - v.y, o.z - v.z);

@@ -22,6 +22,7 @@ Repair repairBoundary(const Vertices& vertices, const Flips& flips, Boundary mod
     ChangesMaker maker(vertices, rounds);
     maker.addTets(repair.counts);
     if (mode == Boundary::Manifold) maker.split(repair.counts);
+    // Nothing is left to peel, so that all that is bad is a vertex of several fans, each a disc.
     repair.counts.left = mode == Boundary::Manifold ? 0 : std::int64_t(rounds.bad().size());
     repair.leavesSurface = rounds.leavesSurface() || maker.leavesSurface();
     repair.changes = maker.take();

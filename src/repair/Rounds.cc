@@ -48,7 +48,7 @@ std::vector<std::int64_t> toggle(const std::vector<std::int64_t>& a, const std::
 } // namespace
 
 Rounds::Rounds(const Vertices& vertices, const Flips& flips, std::vector<std::int64_t> bad)
-    : mVertices(vertices), mBad(std::move(bad)),
+    : mBad(std::move(bad)),
       mReaders([&vertices, &flips] { return std::make_unique<StarReader>(vertices, flips); }) {}
 
 void Rounds::run(Choose choose, Interrupt& interrupt) {

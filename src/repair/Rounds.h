@@ -59,7 +59,6 @@ private:
     bool joinedBeyond(const Star& star, int linkVertex, LinkMask wedge, LinkMask fan);
     void apply(const std::vector<Candidate>& winners);
 
-    const Vertices& mVertices;
     ToggledTets mToggled;
     std::vector<std::int64_t> mBad, mChanged;
     std::atomic<bool> mLeavesSurface{false};

@@ -4,27 +4,8 @@
 
 namespace vdbtet {
 
-namespace {
-
-/// The number in kRoles of each vertex of an octahedron, by the spine's lattice and axis.
-using RoleNumbers = std::array<std::array<std::array<int, 6>, 3>, 2>;
-constexpr RoleNumbers roleNumbers() {
-    RoleNumbers numbers{};
-    int next[2] = {0, 0};
-    for (std::size_t spine = 0; spine < 2; ++spine) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            for (std::size_t i = 0; i < 6; ++i)
-                numbers[spine][axis][i] = next[bcc::kOctahedra[spine][axis][i].lattice]++;
-        }
-    }
-    return numbers;
-}
-constexpr RoleNumbers kRoleOf = roleNumbers();
-
-} // namespace
-
 const std::array<std::array<Stars::Kin, 24>, 2> Stars::kKin = Stars::makeKin();
-const std::array<std::array<Stars::Role, 18>, 2> Stars::kRoles = Stars::makeRoles();
+const std::array<std::array<Stars::Role, kRoles>, 2> Stars::kOctahedraOf = Stars::makeRoles();
 
 std::array<std::array<Stars::Kin, 24>, 2> Stars::makeKin() {
     std::array<std::array<Kin, 24>, 2> all{};
@@ -44,12 +25,12 @@ std::array<std::array<Stars::Kin, 24>, 2> Stars::makeKin() {
                     kin.ringAxis = (axis + ring.axisOffset) % 3;
                     for (int i = 0; i < 4; ++i)
                         kin.vertices[i] = octahedron[bcc::kSliceTets[bcc::S][number][i]] - v;
-                    kin.spineRole = kRoleOf[lattice][std::size_t(axis)][std::size_t(end)];
+                    kin.spineRole = kRolesOf[lattice][std::size_t(axis)][std::size_t(end)];
                     const LocalOctahedron about =
                         localOctahedron(bcc::other(lattice), kin.ringAxis, v + kin.ring);
                     const auto place = std::find(about.begin(), about.end(), v) - about.begin();
                     kin.ringRole =
-                        kRoleOf[bcc::other(lattice)][std::size_t(kin.ringAxis)][std::size_t(place)];
+                        kRolesOf[bcc::other(lattice)][std::size_t(kin.ringAxis)][std::size_t(place)];
                     kin.number = number;
                     if (lattice == bcc::B) {
                         const LocalOctahedron owner = localOctahedron(bcc::A, kin.ringAxis, v + kin.ring);
@@ -67,17 +48,14 @@ std::array<std::array<Stars::Kin, 24>, 2> Stars::makeKin() {
     return all;
 }
 
-std::array<std::array<Stars::Role, 18>, 2> Stars::makeRoles() {
-    std::array<std::array<Role, 18>, 2> all{};
-    for (const bcc::Lattice lattice : {bcc::A, bcc::B}) {
-        std::size_t next = 0;
-        for (const bcc::Lattice spine : {bcc::A, bcc::B}) {
-            for (int axis = 0; axis < 3; ++axis) {
-                const LocalOctahedron octahedron = localOctahedron(spine, axis, localIndex(spine, 3, 3, 3));
-                for (int vertex = 0; vertex < 6; ++vertex) {
-                    if (latticeOf(octahedron[vertex]) == lattice)
-                        all[lattice][next++] = {spine, axis, octahedron[0] - octahedron[vertex], vertex};
-                }
+std::array<std::array<Stars::Role, kRoles>, 2> Stars::makeRoles() {
+    std::array<std::array<Role, kRoles>, 2> all{};
+    for (const bcc::Lattice spine : {bcc::A, bcc::B}) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const LocalOctahedron octahedron = localOctahedron(spine, axis, localIndex(spine, 3, 3, 3));
+            for (std::size_t i = 0; i < 6; ++i) {
+                const auto role = std::size_t(kRolesOf[spine][std::size_t(axis)][i]);
+                all[latticeOf(octahedron[i])][role] = {spine, axis, octahedron[0] - octahedron[i], int(i)};
             }
         }
     }
@@ -108,7 +86,7 @@ void Stars::load(TileRef tile, const LocalStates& states) {
         const int dx = 8 * (slot / 9 - 1), dy = 8 * (slot / 3 % 3 - 1), dz = 8 * (slot % 3 - 1);
         mFlips.forEach(neighbours[slot], [&](const Flip& flip) {
             if (!border.test(flip.vertex)) return;
-            const auto& roles = kRoleOf[flip.lattice][std::size_t(flip.axis)];
+            const auto& roles = kRolesOf[flip.lattice][std::size_t(flip.axis)];
             for (std::size_t i = 0; i < 6; ++i) {
                 const bcc::Vertex& at = bcc::kOctahedra[flip.lattice][flip.axis][i];
                 const int x = (flip.vertex >> 6) + dx + at.x, y = (flip.vertex >> 3 & 7) + dy + at.y,

@@ -34,6 +34,25 @@ struct StarTet {
     Presence presence;
 };
 
+/// The octahedra that a vertex is in are numbered, its roles: by the spine's lattice, then axis, then the
+/// vertex's number there.
+constexpr int kRoles = 18;
+
+/// The role of each vertex of an octahedron, by the spine's lattice and axis.
+using RolesOf = std::array<std::array<std::array<int, 6>, 3>, 2>;
+constexpr RolesOf numberRoles() {
+    RolesOf roles{};
+    int next[2] = {0, 0};
+    for (std::size_t spine = 0; spine < 2; ++spine) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            for (std::size_t i = 0; i < 6; ++i)
+                roles[spine][axis][i] = next[bcc::kOctahedra[spine][axis][i].lattice]++;
+        }
+    }
+    return roles;
+}
+constexpr RolesOf kRolesOf = numberRoles();
+
 /// The face of a positive tet without its vertex @a v, from outside the tet.
 inline LocalFace faceOpposite(const std::array<int, 4>& tet, int v) {
     std::size_t at = 0;
@@ -58,9 +77,9 @@ public:
         for (const Kin& kin : kKin[lattice]) visitLattice(v, kin, visit);
         const std::uint64_t slices = slicesAt(v);
         if (slices == 0) return;
-        for (std::size_t role = 0; role < kRoles[lattice].size(); ++role) {
+        for (std::size_t role = 0; role < kRoles; ++role) {
             const auto slice = bcc::Slice(slices >> (2 * role) & 3);
-            if (slice != bcc::S) visitFlipped(v, kRoles[lattice][role], slice, visit);
+            if (slice != bcc::S) visitFlipped(v, kOctahedraOf[lattice][role], slice, visit);
         }
     }
 
@@ -70,7 +89,8 @@ public:
         for (const Kin& kin : kKin[latticeOf(v)]) visit(kin.at(v));
     }
 
-    /// @return how the 18 octahedra of a vertex of the tile are cut, 2 bits each: 0 where none is flipped.
+    /// @return how the octahedra of a vertex of the tile are cut, 2 bits each by role: 0 where none is
+    /// flipped.
     std::uint64_t slicesAt(int v) const { return mSlices[std::size_t(v)]; }
 
 private:
@@ -94,9 +114,9 @@ private:
         int vertex; ///< the vertex's number in it
     };
     static const std::array<std::array<Kin, 24>, 2> kKin;
-    static const std::array<std::array<Role, 18>, 2> kRoles;
+    static const std::array<std::array<Role, kRoles>, 2> kOctahedraOf;
     static std::array<std::array<Kin, 24>, 2> makeKin();
-    static std::array<std::array<Role, 18>, 2> makeRoles();
+    static std::array<std::array<Role, kRoles>, 2> makeRoles();
 
     Presence presenceOf(const StarTet& tet) const {
         int manifold = 0, interior = 0;

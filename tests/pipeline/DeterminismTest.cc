@@ -33,6 +33,10 @@ void requireSameReport(const Report& a, const Report& b) {
     CHECK(a.surfaceTiles == b.surfaceTiles);
     CHECK(a.cutEdges == b.cutEdges);
     CHECK(a.tieBroken == b.tieBroken);
+    CHECK(a.boundary.found == b.boundary.found);
+    CHECK(a.boundary.filled == b.boundary.filled);
+    CHECK(a.boundary.peeled == b.boundary.peeled);
+    CHECK(a.boundary.split == b.boundary.split);
     CHECK(a.verticesMoved == b.verticesMoved);
     CHECK(a.sweeps == b.sweeps);
     CHECK(a.anglesBefore.min == b.anglesBefore.min);
