@@ -10,11 +10,10 @@ import signal
 import struct
 import subprocess
 import sys
-import tempfile
-import time
 import unittest
 
-VDB_TET, MAKE_FIXTURES = map(os.path.abspath, sys.argv[1:3])
+sys.path.append(os.path.join(os.path.dirname(__file__), "..", "support"))
+from tool import VDB_TET, ToolTest, wait_until_writing
 
 
 def run(*arguments, **options):
@@ -47,27 +46,9 @@ def read_vtu(path):
     return arrays
 
 
-def wait_until_writing(process):
-    """Until the process, which reads sphere.vdb, has another file of this folder open; it may have no name."""
-    links = f"/proc/{process.pid}/fd"
-    while process.poll() is None:
-        for link in os.listdir(links):
-            try:
-                path = os.readlink(os.path.join(links, link))
-            except FileNotFoundError:
-                continue  # closed meanwhile
-            if path.startswith(os.getcwd() + "/") and not path.endswith("sphere.vdb"):
-                return
-        time.sleep(0.001)
-
-
-class VdbTet(unittest.TestCase):
+class VdbTet(ToolTest):
     def setUp(self):
-        directory = tempfile.TemporaryDirectory()
-        self.addCleanup(directory.cleanup)
-        self.addCleanup(os.chdir, os.getcwd())
-        os.chdir(directory.name)
-        subprocess.run([MAKE_FIXTURES], check=True)
+        super().setUp()
         self.inputs = sorted(os.listdir())
 
     def created(self):

@@ -7,11 +7,10 @@ import importlib
 import os
 import subprocess
 import sys
-import tempfile
-import time
 import unittest
 
-VDB_TET, MAKE_FIXTURES = map(os.path.abspath, sys.argv[1:3])
+sys.path.append(os.path.join(os.path.dirname(__file__), "..", "support"))
+from tool import VDB_TET, ToolTest
 
 
 def need(module):
@@ -23,42 +22,24 @@ def need(module):
         sys.exit(77)
 
 
-def read_vtu(path):
-    """Points and tets as VTK reads them."""
+def read_with_vtk(reader, path):
+    """Points and tets."""
     numpy_support = need("vtkmodules.util.numpy_support")
-    reader = need("vtkmodules.vtkIOXML").vtkXMLUnstructuredGridReader()
     reader.SetFileName(path)
     reader.Update()
     grid = reader.GetOutput()
+    if set(numpy_support.vtk_to_numpy(grid.GetCellTypesArray())) != {10}:
+        raise ValueError("not tets alone")
     points = numpy_support.vtk_to_numpy(grid.GetPoints().GetData())
     tets = numpy_support.vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
     return points, tets
 
 
-def wait_until_writing(process):
-    """Until the process, which reads sphere.vdb, has another file of this folder open; it may have no name."""
-    links = f"/proc/{process.pid}/fd"
-    while process.poll() is None:
-        for link in os.listdir(links):
-            try:
-                path = os.readlink(os.path.join(links, link))
-            except FileNotFoundError:
-                continue  # closed meanwhile
-            if path.startswith(os.getcwd() + "/") and not path.endswith("sphere.vdb"):
-                return
-        time.sleep(0.001)
+def read_vtu(path):
+    return read_with_vtk(need("vtkmodules.vtkIOXML").vtkXMLUnstructuredGridReader(), path)
 
 
-class FormatTest(unittest.TestCase):
-    """Runs in a folder of its own that holds the fixtures of tests/cli."""
-
-    def setUp(self):
-        directory = tempfile.TemporaryDirectory()
-        self.addCleanup(directory.cleanup)
-        self.addCleanup(os.chdir, os.getcwd())
-        os.chdir(directory.name)
-        subprocess.run([MAKE_FIXTURES], check=True)
-
+class FormatTest(ToolTest):
     def mesh(self, out, *options, fixture="sphere.vdb"):
         """Write a mesh, quietly."""
         subprocess.run([VDB_TET, "-q", fixture, out, *options], check=True, timeout=240)

@@ -5,7 +5,8 @@ import resource
 import signal
 import subprocess
 
-from support import VDB_TET, FormatTest, main, need, read_vtu, wait_until_writing
+from support import VDB_TET, FormatTest, main, need, read_vtu, read_with_vtk
+from tool import wait_until_writing
 
 np = need("numpy")
 
@@ -14,18 +15,10 @@ KINDS = [("mesh.vtkhdf",), ("mesh.vtkhdf", "--compress"), ("mesh.vtu", "--compre
 
 
 def read_vtkhdf(path):
-    """Points and tets as VTK reads them."""
-    numpy_support = need("vtkmodules.util.numpy_support")
     reader = need("vtkmodules.vtkIOHDF").vtkHDFReader()
     if not reader.CanReadFile(path):
         raise ValueError("VTK does not take it for VTKHDF")
-    reader.SetFileName(path)
-    reader.Update()
-    grid = reader.GetOutput()
-    if set(numpy_support.vtk_to_numpy(grid.GetCellTypesArray())) != {10}:
-        raise ValueError("not tets alone")
-    points = numpy_support.vtk_to_numpy(grid.GetPoints().GetData())
-    return points, numpy_support.vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
+    return read_with_vtk(reader, path)
 
 
 def read_meshio(path):

@@ -1,5 +1,5 @@
 """The formats of mesh generators and solvers, each read back by a program that is not ours."""
-from support import FormatTest, main, need, read_vtu
+from support import FormatTest, main, need, read_vtu, read_with_vtk
 
 np = need("numpy")
 
@@ -53,16 +53,7 @@ class MeshesTest(FormatTest):
 
 
 def read_vtk(path):
-    """Points and tets as VTK reads them from a legacy file."""
-    numpy_support = need("vtkmodules.util.numpy_support")
-    reader = need("vtkmodules.vtkIOLegacy").vtkUnstructuredGridReader()
-    reader.SetFileName(path)
-    reader.Update()
-    grid = reader.GetOutput()
-    if set(numpy_support.vtk_to_numpy(grid.GetCellTypesArray())) != {10}:
-        raise ValueError("not tets alone")
-    points = numpy_support.vtk_to_numpy(grid.GetPoints().GetData())
-    return points, numpy_support.vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
+    return read_with_vtk(need("vtkmodules.vtkIOLegacy").vtkUnstructuredGridReader(), path)
 
 
 def read_gmsh(path):
