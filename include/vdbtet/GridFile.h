@@ -20,6 +20,18 @@ namespace vdbtet {
 openvdb::GridBase::Ptr readGrid(const std::string& path, const std::string& name = {},
                                 bool delayLoad = false);
 
+/// What a .vdb file says of one of its grids.
+struct GridHead {
+    std::string name;                  ///< as readGrid() takes it
+    std::string type;                  ///< such as Tree_float_5_4_3
+    openvdb::GridBase::ConstPtr grid;  ///< its metadata and transform, and no values to rely on; null if
+                                       ///< OpenVDB does not know the type
+};
+
+/// @return all grids of a .vdb file, in its order, with their trees left unread
+/// @throw FileError as above
+std::vector<GridHead> readHeads(const std::string& path);
+
 /// @brief Read the grids of a .vdb file whose values a mesh shall carry.
 /// @param names  as above; or empty for all that FieldSampler can sample but the grid named @a except
 /// @throw FileError as above

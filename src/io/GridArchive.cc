@@ -56,14 +56,17 @@ GridArchive::GridArchive(const std::string& path)
     }
 }
 
-openvdb::GridClass GridArchive::gridClass(const Entry& entry) {
-    if (!entry.grid) return openvdb::GRID_UNKNOWN;
-    if (!inputHasGridOffsets()) return entry.grid->getGridClass();
+openvdb::GridBase::Ptr GridArchive::readHead(const Entry& entry) {
+    if (!inputHasGridOffsets()) return entry.grid;
+    // Older files have the transform behind the tree.
+    if (openvdb::io::getFormatVersion(mStream) < openvdb::OPENVDB_FILE_VERSION_GRID_INSTANCING)
+        return read(entry, false);
     const auto grid = create(entry);
     entry.descriptor.seekToGrid(mStream);
     readGridCompression(mStream);
     grid->readMeta(mStream);
-    return grid->getGridClass();
+    grid->readTransform(mStream);
+    return grid;
 }
 
 openvdb::GridBase::Ptr GridArchive::read(const Entry& entry, bool delayLoad) {

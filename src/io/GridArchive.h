@@ -31,7 +31,8 @@ public:
 
     /// In file order.
     const std::vector<Entry>& entries() const { return mEntries; }
-    openvdb::GridClass gridClass(const Entry& entry);
+    /// @return the grid's metadata and transform, mostly with an empty tree
+    openvdb::GridBase::Ptr readHead(const Entry& entry);
     /// @throw FileError when this OpenVDB lacks the compression the grid is stored with
     openvdb::GridBase::Ptr read(const Entry& entry, bool delayLoad);
 

@@ -68,6 +68,18 @@ std::vector<std::size_t> namesakes(const std::vector<Entry>& entries, const std:
     return found;
 }
 
+openvdb::GridClass classOf(GridArchive& archive, const Entry& entry) {
+    return entry.grid ? archive.readHead(entry)->getGridClass() : openvdb::GRID_UNKNOWN;
+}
+
+/// The name that means the grid, and no other.
+std::string nameOf(const std::vector<Entry>& entries, std::size_t i) {
+    const std::string name = plainName(entries[i]);
+    const auto same = namesakes(entries, name);
+    const auto index = std::find(same.begin(), same.end(), i) - same.begin();
+    return same.size() > 1 || name.empty() ? name + "[" + std::to_string(index) + "]" : name;
+}
+
 /// One line such as "density (float, fog volume), v[0] (vec3s, unknown), v[1] (vec3s, unknown)".
 std::string listing(GridArchive& archive) {
     constexpr std::size_t maxGrids = 30, maxName = 60;
@@ -77,15 +89,11 @@ std::string listing(GridArchive& archive) {
         if (i > 0) list += ", ";
         if (i == maxGrids) return list + "and " + std::to_string(entries.size() - i) + " more";
 
-        std::string name = plainName(entries[i]);
-        const auto same = namesakes(entries, name);
-        const auto index = std::find(same.begin(), same.end(), i) - same.begin();
-        const bool needsIndex = same.size() > 1 || name.empty();
+        std::string name = nameOf(entries, i);
         if (name.size() > maxName) name = name.substr(0, maxName) + "...";
-        if (needsIndex) name += "[" + std::to_string(index) + "]";
         list += name + " (";
         list += entries[i].grid ? entries[i].grid->valueType() + ", " +
-                                      openvdb::GridBase::gridClassToString(archive.gridClass(entries[i]))
+                                      openvdb::GridBase::gridClassToString(classOf(archive, entries[i]))
                                 : entries[i].descriptor.gridType() + ", a type OpenVDB does not know";
         list += ")";
     }
@@ -126,7 +134,7 @@ std::size_t findTheOne(GridArchive& archive, const std::string& path) {
         throw UnsupportedGrid(path + " holds no float or double grid, only: " + listing(archive));
     }
     for (const std::size_t i : scalars) {
-        if (archive.gridClass(entries[i]) == openvdb::GRID_LEVEL_SET) levelSets.push_back(i);
+        if (classOf(archive, entries[i]) == openvdb::GRID_LEVEL_SET) levelSets.push_back(i);
     }
     if (levelSets.size() == 1) return levelSets[0];
     throw UnsupportedGrid(path + " holds several scalar grids; choose one by its name: " + listing(archive));
@@ -167,6 +175,19 @@ openvdb::GridBase::Ptr readGrid(const std::string& path, const std::string& name
     return withArchive(path, [&](GridArchive& archive) {
         const std::size_t index = name.empty() ? findTheOne(archive, path) : findByName(archive, path, name);
         return readEntry(archive, path, index, delayLoad);
+    });
+}
+
+std::vector<GridHead> readHeads(const std::string& path) {
+    return withArchive(path, [&](GridArchive& archive) {
+        const std::vector<Entry>& entries = archive.entries();
+        std::vector<GridHead> heads;
+        for (std::size_t i = 0; i < entries.size(); ++i) {
+            GridHead head{nameOf(entries, i), entries[i].descriptor.gridType(), nullptr};
+            if (entries[i].grid) head.grid = archive.readHead(entries[i]);
+            heads.push_back(head);
+        }
+        return heads;
     });
 }
 

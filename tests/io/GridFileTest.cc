@@ -95,3 +95,26 @@ TEST_CASE("a grid of a type that OpenVDB does not know spoils no other") {
         CHECK_THROWS_AS(readGrid(folder.file("odd.vdb"), "odd", delayLoad), UnsupportedGrid);
     }
 }
+
+TEST_CASE("heads of grids tell what they are, and no tree is read") {
+    const TempFolder folder;
+    const auto other = openvdb::Vec3SGrid::create();
+    other->setName("v");
+    const std::string path = folder.file("grids.vdb");
+    write(path, {ball(), other, other->deepCopy()});
+    const auto heads = readHeads(path);
+    REQUIRE(heads.size() == 3);
+    CHECK(heads[0].name == "ball");
+    CHECK(heads[0].type == openvdb::FloatGrid::gridType());
+    CHECK(heads[0].grid->transform() == ball()->transform());
+    CHECK(heads[0].grid->getGridClass() == openvdb::GRID_LEVEL_SET);
+    CHECK(heads[0].grid->activeVoxelCount() == 0);
+    const auto count =
+        heads[0].grid->getMetadata<openvdb::Int64Metadata>(openvdb::GridBase::META_FILE_VOXEL_COUNT);
+    REQUIRE(count);
+    CHECK(count->value() == std::int64_t(ball()->activeVoxelCount()));
+    CHECK(heads[1].name == "v[0]");
+    CHECK(heads[2].name == "v[1]");
+    for (const auto& head : heads) CHECK(readGrid(path, head.name)->type() == head.type);
+    CHECK_THROWS_AS(readHeads(folder.file("missing.vdb")), FileError);
+}

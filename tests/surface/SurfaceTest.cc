@@ -147,6 +147,12 @@ TEST_CASE("Files that hold no surface are refused by name") {
     CHECK_THROWS_AS(readSurface(write(folder, "empty.stl", "")), FileError);
     CHECK_THROWS_AS(readSurface(write(folder, "points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n")), FileError);
     CHECK_THROWS_AS(readSurface(write(folder, "cut.ply", asPly(true).substr(0, 250))), FileError);
+    std::string ply = asPly(false);
+    const std::string element = "element vertex", type = "float x";
+    CHECK_THROWS_AS(readSurface(write(folder, "property.ply", std::string(ply).erase(ply.find(element), 2))),
+                    FileError);
+    CHECK_THROWS_AS(readSurface(write(folder, "type.ply", ply.replace(ply.find(type), type.size(), "int x"))),
+                    FileError);
     std::string bytes = asStl(true);
     const float nan = std::numeric_limits<float>::quiet_NaN();
     std::memcpy(&bytes[80 + 4 + 12], &nan, sizeof nan);
