@@ -1,0 +1,120 @@
+#!/usr/bin/env python3
+"""Batters vdb_tet with damaged files, and counts what comes of it.
+
+usage: batter.py VDB_TET FOLDER_OR_FILE... [--mutations N] [--seed S] [--limit-gib G] [--seconds T]
+
+Every .vdb is meshed as it is; with --mutations, so many damaged copies of the valid ones are, too. A run is bad that
+ends by a signal, takes too long or too much memory, leaves a file behind that it says it has not written, or says
+nothing or more than a line of why. The exit code is 1 if any run is bad.
+"""
+import argparse
+import collections
+import os
+import random
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+
+
+def mutated(whole, rng):
+    """A copy of some bytes, damaged in one of the ways that files come to be."""
+    data = bytearray(whole)
+    kind = rng.choice(("cut", "bits", "bits", "head", "head", "number", "block", "swap"))
+    if kind == "cut":
+        del data[rng.randrange(len(data)):]
+    elif kind == "bits":
+        for _ in range(rng.choice((1, 1, 2, 8, 64))):
+            data[rng.randrange(len(data))] ^= 1 << rng.randrange(8)
+    elif kind == "head":  # where the names, types, offsets and topology are
+        for _ in range(rng.choice((1, 2, 4))):
+            data[rng.randrange(min(len(data), 1500))] = rng.choice((0, 1, 0x7F, 0x80, 0xFF, rng.randrange(256)))
+    elif kind == "number":
+        at = rng.randrange(len(data))
+        data[at:at + 4] = rng.choice((0, 1, 0x7FFFFFFF, 0xFFFFFFFF, 0x80000000, rng.getrandbits(32))).to_bytes(4, "little")
+    elif kind == "block":
+        at, size = rng.randrange(len(data)), rng.choice((16, 256, 4096))
+        data[at:at + size] = rng.choice((bytes(size), b"\xff" * size, rng.randbytes(size)))
+    else:
+        a, b, size = rng.randrange(len(data)), rng.randrange(len(data)), rng.choice((8, 64, 1024))
+        data[a:a + size], data[b:b + size] = data[b:b + size], data[a:a + size]
+    return bytes(data)
+
+
+def run(vdb_tet, path, folder, options):
+    """@return the outcome of meshing one file: a word, and what was said"""
+    out = os.path.join(folder, "out.vtu")
+    command = [vdb_tet, path, out, "-q", "--voxels", "2"]
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=options.seconds)
+    except subprocess.TimeoutExpired as expired:
+        return "HANG", str(expired)
+    said = done.stderr.strip()
+    left = sorted(os.listdir(folder))
+    if os.path.exists(out):
+        os.remove(out)
+    if done.returncode < 0:
+        return "CRASH", signal.Signals(-done.returncode).name
+    if done.returncode == 0:
+        return ("accepted", said) if left == ["out.vtu"] and not said else ("ODD SUCCESS", f"{left} {said}")
+    if left:
+        return "LEFT FILES", str(left)
+    if done.stdout or said.count("\n") or not said:
+        return "NOT ONE LINE", done.stdout + said
+    return ("ended by a signal" if "signal" in said else f"refused, exit {done.returncode}"), said
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("vdb_tet")
+    parser.add_argument("paths", nargs="+")
+    parser.add_argument("--mutations", type=int, default=0)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--limit-gib", type=float, default=2)
+    parser.add_argument("--seconds", type=float, default=20)
+    parser.add_argument("--keep", help="a folder to put copies of what came out bad into")
+    options = parser.parse_args()
+
+    files = []
+    for path in options.paths:
+        files += [os.path.join(path, name) for name in sorted(os.listdir(path))] if os.path.isdir(path) else [path]
+    files = [path for path in files if path.endswith(".vdb")]
+    counts, bad, heaviest = collections.Counter(), [], 0
+
+    def judge(name, path, folder):
+        nonlocal heaviest
+        outcome, said = run(options.vdb_tet, path, folder, options)
+        peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / (1 << 20)  # of the largest so far
+        if peak > max(heaviest, options.limit_gib):
+            outcome, said = "HEAVY", f"{peak:.2f} GiB"
+        heaviest = max(heaviest, peak)
+        counts[outcome] += 1
+        if outcome.isupper():
+            bad.append(name)
+            print(f"{outcome}: {name}: {said[:200]}", flush=True)
+            if options.keep:
+                with open(path, "rb") as source, open(os.path.join(options.keep, name.replace("/", "_")), "wb") as copy:
+                    copy.write(source.read())
+
+    with tempfile.TemporaryDirectory() as top:
+        folder = os.path.join(top, "out")
+        os.mkdir(folder)
+        for path in files:
+            judge(os.path.basename(path), path, folder)
+        rng = random.Random(options.seed)
+        sources = [open(path, "rb").read() for path in files] if options.mutations else []
+        damaged = os.path.join(top, "damaged.vdb")
+        for number in range(options.mutations):
+            with open(damaged, "wb") as stream:
+                stream.write(mutated(sources[number % len(sources)], rng))
+            judge(f"seed{options.seed}_{number}.vdb", damaged, folder)
+
+    for outcome, count in sorted(counts.items()):
+        print(f"{count:7} {outcome}")
+    print(f"{heaviest:7.2f} GiB at most")
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
