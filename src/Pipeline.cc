@@ -2,6 +2,7 @@
 /// The stages in order (paper, Algorithm 1).
 #include "Pipeline.h"
 
+#include "Stage.h"
 #include "cuts/Arrows.h"
 #include "destinations/Destinations.h"
 #include "emit/Emit.h"
@@ -16,28 +17,11 @@
 #include <vdbtet/Errors.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace vdbtet {
 
 namespace {
-
-/// Tells the interrupter's host when the work starts and ends.
-class Session {
-public:
-    explicit Session(openvdb::util::NullInterrupter* interrupter) : mInterrupter(interrupter) {
-        if (mInterrupter) mInterrupter->start("Meshing volume with tetrahedra");
-    }
-    ~Session() {
-        if (mInterrupter) mInterrupter->end();
-    }
-    Session(const Session&) = delete;
-    Session& operator=(const Session&) = delete;
-
-private:
-    openvdb::util::NullInterrupter* mInterrupter;
-};
 
 /// The largest distance between neighbouring numbers of @a digits mantissa bits up to @a magnitude, as a
 /// fraction of @a spacing.
@@ -89,14 +73,7 @@ int topLevel(const Options& options, double spacing, const Layout& layout) {
 /// @return false where that is not enough
 bool mesh(const Field& field, const Frame& frame, const Options& options, int margin, MeshSink& sink,
           Interrupt& interrupt, Report& report) {
-    const auto stage = [&](const char* name, auto&& work) {
-        const auto start = std::chrono::steady_clock::now();
-        auto product = work();
-        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-        report.stages.push_back({name, elapsed.count()});
-        report.cancelled = interrupt.poll();
-        return product;
-    };
+    const auto stage = [&](const char* name, auto&& work) { return runStage(name, interrupt, report, work); };
 
     auto tiles =
         stage("tiles", [&] { return field.surfaceTiles(options.maxSurfaceTiles, margin, interrupt); });
@@ -198,9 +175,7 @@ bool mesh(const Field& field, const Frame& frame, const Options& options, int ma
 } // namespace
 
 void runPipeline(const Field& field, const Frame& frame, const Options& options, MeshSink& sink,
-                 openvdb::util::NullInterrupter* interrupter, Report& report) {
-    const Session session(interrupter);
-    Interrupt interrupt(interrupter);
+                 Interrupt& interrupt, Report& report) {
     const std::size_t before = report.stages.size();
     // Points that are moved on, those next to manifold ones, need a tile with a record, too.
     if (options.optimize) {

@@ -2,6 +2,7 @@
 /// The whole method on one screen, for any field.
 #pragma once
 
+#include "Parallel.h"
 #include "bcc/Frame.h"
 #include "field/Field.h"
 
@@ -12,6 +13,6 @@ namespace vdbtet {
 /// Mesh the inside of @a field into @a sink; fills in what the run did. The report's description of the grid
 /// is the caller's.
 void runPipeline(const Field& field, const Frame& frame, const Options& options, MeshSink& sink,
-                 openvdb::util::NullInterrupter* interrupter, Report& report);
+                 Interrupt& interrupt, Report& report);
 
 } // namespace vdbtet

@@ -6,10 +6,10 @@
 
 #include "ChooseLevel.h"
 #include "Pipeline.h"
+#include "Stage.h"
 #include "field/GridField.h"
 #include "field/ValueRange.h"
 
-#include <chrono>
 #include <cmath>
 
 namespace vdbtet {
@@ -49,12 +49,12 @@ Report meshGrid(const GridT& grid, MeshSink& sink, const Options& options,
                         "tets at the surface");
     }
     const Level level = chooseLevel(grid, double(grid.background()), options, report);
-    const auto start = std::chrono::steady_clock::now();
-    requireInside(scanValues(grid), level);
-    report.stages.push_back(
-        {"scan", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()});
+    Interrupt interrupt(interrupter);
+    const ValueRange values = runStage("scan", interrupt, report, [&] { return scanValues(grid); });
+    if (report.cancelled) return report;
+    requireInside(values, level);
     const GridField<GridT> field(grid, frame, level);
-    runPipeline(field, frame, options, sink, interrupter, report);
+    runPipeline(field, frame, options, sink, interrupt, report);
     return report;
 }
 

@@ -2,6 +2,11 @@
 /// The options of vdb_tet, bound straight onto the library's.
 #include "CommandLine.h"
 
+#include "Manual.h"
+#include "Suggest.h"
+#include "UsageError.h"
+#include "surface/TriangleMesh.h"
+
 #include <vdbtet/MeshFile.h>
 
 #include <CLI/CLI.hpp>
@@ -16,17 +21,6 @@
 #include <vector>
 
 namespace {
-
-namespace fs = std::filesystem;
-
-bool isSameFile(const std::string& a, const std::string& b) {
-    std::error_code error;
-    if (fs::equivalent(a, b, error)) return true; // by any name, where both exist
-    const auto canonical = [&error](const std::string& path) {
-        return fs::weakly_canonical(fs::absolute(path, error), error);
-    };
-    return canonical(a) == canonical(b) && !error;
-}
 
 const std::map<std::string, vdbtet::Inside> kSides = {
     {"below", vdbtet::Inside::Below}, {"above", vdbtet::Inside::Above}, {"auto", vdbtet::Inside::Automatic}};
@@ -66,16 +60,35 @@ void check(const CommandLine& line) {
     }
     if (!line.fieldsFrom.empty() && line.sample.empty() && line.sampleCells.empty())
         throw UsageError("--fields-from is for --sample and --sample-cells, and neither is given");
-    const std::pair<const char*, const std::string*> files[] = {
-        {"IN", &line.in}, {"OUT", &line.out}, {"--report", &line.report}, {"--surface", &line.surface}};
-    for (const auto& one : files) {
-        for (const auto* other = files; other != &one; ++other) {
-            if (!one.second->empty() && !other->second->empty() && isSameFile(*one.second, *other->second)) {
-                throw UsageError(
-                    fmt::format("{} and {} are the same file: {}", other->first, one.first, *one.second));
-            }
-        }
+    const bool surfaces = std::any_of(line.inputs.begin(), line.inputs.end(), isSurfaceFile);
+    if (line.voxelSize && !surfaces)
+        throw UsageError(
+            "--voxel-size is for surfaces, .obj, .ply or .stl; the lattice of a volume is set by "
+            "--voxels or --spacing");
+    if (line.allGrids && !line.name.empty())
+        throw UsageError("--all-grids takes every grid, and --name one; give only one of the two");
+}
+
+/// The last file is OUT, unless it is one more to count.
+void splitFiles(CommandLine& line, std::vector<std::string> files) {
+    const bool counts = line.dryRun && std::filesystem::path(files.back()).extension() == ".vdb";
+    if (files.size() > 1 && !counts) {
+        line.out = files.back();
+        files.pop_back();
     }
+    line.inputs = std::move(files);
+}
+
+/// What to say of arguments that CLI11 does not know.
+std::string unknown(const CLI::App& app, const std::string& argument) {
+    const std::string word = argument.substr(0, argument.find('='));
+    std::vector<std::string> known;
+    for (const CLI::Option* option : app.get_options()) {
+        for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    }
+    const std::string meant = word.rfind("--", 0) == 0 ? nearestWord(word, known) : std::string();
+    return meant.empty() ? fmt::format("there is no option {}; --help lists the options", word)
+                         : fmt::format("there is no option {}; did you mean {}?", word, meant);
 }
 
 } // namespace
@@ -87,8 +100,15 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
 
     CLI::App app("Fill an OpenVDB volume with tetrahedra of guaranteed dihedral angles.\n", "vdb_tet");
     app.set_version_flag("--version", "vdb_tet " VDBTET_VERSION ", OpenVDB " OPENVDB_LIBRARY_VERSION_STRING);
-    app.add_option("IN.vdb", line.in, "The file that holds the volume")->required();
-    app.add_option("OUT", line.out, "The mesh to write; may be left out with --dry-run");
+    std::vector<std::string> files; // with one option for OUT, too, CLI11 would give all to the first
+    app.add_option(
+           "IN.vdb...OUT", files,
+           "IN are .vdb files that hold volumes, or .obj, .ply or .stl files of closed surfaces. OUT is "
+           "the mesh to write, and may be left out with --dry-run. In OUT and the names of other files "
+           "that are written {stem} stands for the input's name, {frame} for the number in it, {grid} "
+           "for the grid")
+        ->required()
+        ->type_name("FILE");
     std::vector<std::string> formats;
     for (const vdbtet::MeshFormat& format : vdbtet::meshFormats()) formats.push_back(format.name);
     app.add_option("--format", line.format, "Format of OUT. Default: by its extension")
@@ -103,6 +123,11 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
                    "Grid to mesh; NAME[i] for the i-th, from 0, of several grids of that name. "
                    "Default: the only scalar grid, else the only level set")
         ->type_name("NAME");
+    app.add_option("--voxel-size", line.voxelSize,
+                   "Of surfaces: the voxels they are turned into, in world units. Default: a 256th of the "
+                   "longest side")
+        ->check(positive)
+        ->type_name("LENGTH");
     app.add_option("-i,--isovalue", options.isovalue,
                    "Where the surface is. Default: 0 for a level set, 0.5 for a fog volume")
         ->type_name("VALUE");
@@ -207,18 +232,53 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
         ->type_name("FILE.json");
     app.add_flag("--dry-run", line.dryRun, "Count, and say how large the file would be, but write no mesh");
     app.add_flag("-q,--quiet", line.quiet, "Print nothing but errors");
+    app.add_option("--frames", line.frames,
+                   "Frames of a sequence, such as 1-240, 1-240x2 or 1,5,10-20, for inputs such as "
+                   "smoke.%04d.vdb or smoke.####.vdb")
+        ->type_name("LIST")
+        ->group("Batches");
+    app.add_flag("--all-grids", line.allGrids, "Mesh every float and double grid of the files")
+        ->group("Batches");
+    app.add_option("--jobs", line.jobs,
+                   "Meshes to make at once, with the threads shared out. Default: 0, as many as fit into "
+                   "memory")
+        ->check(CLI::Range(0, 4096).description(""))
+        ->type_name("N")
+        ->group("Batches");
+    app.add_flag("--resume", line.resume,
+                 "Skip what has been written since its input was; options do not count")
+        ->group("Batches");
+    app.add_flag("--fail-fast", line.failFast, "Begin no other mesh after one that failed")->group("Batches");
+    app.add_option("--log", line.log, "Append what happens to this file, a line of JSON an event")
+        ->type_name("FILE.jsonl")
+        ->group("Batches");
 
+    app.set_help_flag("-h,--help", "Print the options used most, and examples");
+    app.set_help_all_flag("--help-all", "Print all options");
+
+    // For the build, which installs what it prints.
+    if (argc == 3 && argv[1] == std::string("--generate")) {
+        fmt::print("{}", argv[2] == std::string("man") ? manPage(app) : completion(app, argv[2]));
+        return std::nullopt;
+    }
     try {
         app.parse(withTargets(argc, argv));
-    } catch (const CLI::CallForHelp&) {
+    } catch (const CLI::CallForAllHelp&) {
         fmt::print("{}", app.help());
+        return std::nullopt;
+    } catch (const CLI::CallForHelp&) {
+        fmt::print("{}", helpScreen(app));
         return std::nullopt;
     } catch (const CLI::CallForVersion& version) {
         fmt::print("{}\n", version.what());
         return std::nullopt;
     } catch (const CLI::Error& error) {
+        for (const std::string& argument : app.remaining()) {
+            if (argument.rfind('-', 0) == 0) throw UsageError(unknown(app, argument));
+        }
         throw UsageError(error.what());
     }
+    splitFiles(line, std::move(files));
     line.distance = distance->count() > 0;
     if (upAxis->count() + metersPerUnit->count() + usdSurface->count() > 0) line.formatOptions.usd = usd;
     check(line);

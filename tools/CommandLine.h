@@ -6,22 +6,25 @@
 #include <vdbtet/VolumeToTets.h>
 
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-/// The command line makes no sense; exit code 2.
-struct UsageError : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
-
+/// Of all jobs, with placeholders in the names of files; of one of them (Plan.h), without.
 struct CommandLine {
-    std::string in;
+    std::vector<std::string> inputs; ///< files, or patterns for frames
+    std::string frames;              ///< a list; empty: inputs are files
+    bool allGrids = false;
+    int jobs = 0; ///< at once; 0: as many as fit
+    bool resume = false, failFast = false;
+    std::string log; ///< JSON lines; empty: none
+
+    std::string in;     ///< of one job
     std::string out;    ///< may be empty in a dry run
     std::string format; ///< of OUT; empty: by its extension
     vdbtet::FormatOptions formatOptions;
     std::string surface;                  ///< where to write the boundary; empty: nowhere
     std::string name;                     ///< of the grid; empty: the only one
+    std::optional<double> voxelSize;      ///< for surfaces; default: by their size
     std::vector<std::string> sample;      ///< grids whose values the points carry; "all" for all others
     std::vector<std::string> sampleCells; ///< the same for the tets
     std::string fieldsFrom;               ///< the file that holds them; empty: IN
@@ -40,5 +43,5 @@ struct CommandLine {
 };
 
 /// @return nothing when help or the version was asked for, and has been printed
-/// @throw UsageError
+/// @throw UsageError, vdbtet::BadOption
 std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv);

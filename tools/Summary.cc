@@ -12,6 +12,10 @@
 
 namespace {
 
+const char* name(vdbtet::Inside inside) { return inside == vdbtet::Inside::Below ? "below" : "above"; }
+
+} // namespace
+
 std::string humanSize(std::uint64_t bytes) {
     constexpr std::array units = {"bytes", "kB", "MB", "GB", "TB"};
     auto size = static_cast<double>(bytes);
@@ -20,10 +24,6 @@ std::string humanSize(std::uint64_t bytes) {
     return unit == 0 ? fmt::format("{} bytes", bytes) : fmt::format("{:.1f} {}", size, units[unit]);
 }
 
-const char* name(vdbtet::Inside inside) { return inside == vdbtet::Inside::Below ? "below" : "above"; }
-
-} // namespace
-
 std::string asText(const CommandLine& line, const Summary& summary) {
     const vdbtet::Report& r = summary.report;
     std::string text;
@@ -31,6 +31,7 @@ std::string asText(const CommandLine& line, const Summary& summary) {
         text += fmt::format("{:<9} {}\n", key, value);
     };
     add("grid", fmt::format("{} ({})", r.gridName.empty() ? "unnamed" : r.gridName, summary.gridType));
+    if (!summary.surface.empty()) add("surface", summary.surface);
     add("rule", r.insideRule);
     add("spacing", fmt::format("{:g}, in voxels {:g}", r.spacing, r.spacing / r.voxelSize));
     add("mesh",
@@ -85,6 +86,9 @@ std::string asJson(const CommandLine& line, const Summary& summary) {
         {"vdbtet", VDBTET_VERSION},
         {"openvdb", OPENVDB_LIBRARY_VERSION_STRING},
         {"input", line.in},
+        {"surface",
+         summary.surface.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(summary.surface)},
+        {"warnings", summary.warnings},
         {"output", line.dryRun ? nlohmann::ordered_json() : nlohmann::ordered_json(line.out)},
         {line.dryRun && line.formatOptions.compression > 0 ? "bytesAtMost" : "bytes", summary.bytes},
         {"scale", line.scale},

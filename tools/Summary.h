@@ -8,13 +8,19 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 struct Summary {
     vdbtet::Report report;   ///< with the reading as its first stage
     std::string gridType;    ///< such as "float, level set"
+    std::string surface;     ///< what it was made from, or empty
+    std::vector<std::string> warnings;
     double seconds = 0.0;    ///< reading and meshing
     std::uint64_t bytes = 0; ///< size of the mesh file, also of the one a dry run does not write
 };
+
+/// Such as "1.5 MB".
+std::string humanSize(std::uint64_t bytes);
 
 std::string asText(const CommandLine& line, const Summary& summary);
 std::string asJson(const CommandLine& line, const Summary& summary);

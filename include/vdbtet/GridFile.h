@@ -32,6 +32,11 @@ struct GridHead {
 /// @throw FileError as above
 std::vector<GridHead> readHeads(const std::string& path);
 
+/// @return the names of a .vdb file's float and double grids, in its order, as readGrid() takes them
+/// @throw FileError        as above
+/// @throw UnsupportedGrid  when there is none
+std::vector<std::string> scalarGrids(const std::string& path);
+
 /// @brief Read the grids of a .vdb file whose values a mesh shall carry.
 /// @param names  as above; or empty for all that FieldSampler can sample but the grid named @a except
 /// @throw FileError as above

@@ -68,6 +68,10 @@ public:
     static const MeshFormat& formatOf(const std::string& path, const std::string& format = {},
                                       const FormatOptions& options = {});
 
+    /// @return the paths of all files that a mesh is written into, most often @a path alone
+    /// @throw BadOption as above
+    static std::vector<std::string> filesOf(const std::string& path, const std::string& format = {});
+
     /// @throw BadOption where it does not hold fields, as begin() does: for those who ask before the work
     static void requireFields(const MeshFormat& format);
 

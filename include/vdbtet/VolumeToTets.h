@@ -132,7 +132,12 @@ struct Report {
 /// @param sink         receives exact totals, then the mesh in chunks of bounded size, in world space
 /// @param options      see Options
 /// @param interrupter  may be null; when it says stop, the run returns early with Report::cancelled set, and
-///                     the sink's end() is not called
+///                     the sink's end() is not called. It is told of each stage of Report::stages by
+///                     start(name) and end(), one after the other, and asked wasInterrupted(percent), from
+///                     any thread and from several at once, often enough to stop within a fraction of a
+///                     second: percent of the stage's work, rising but for what threads overtake each other,
+///                     or -1 where no one knows. Of the stage emit it is the percentage of the tets that
+///                     the sink has got.
 /// @details Runs on the caller's tbb::task_arena; the mesh is the same, bit for bit, for any number of
 /// threads. Memory grows with the surface, not with the volume or its bounding box.
 /// @throw BadOption, UnsupportedGrid, BadValue, NoSurface, UnboundedInside, TooLarge, and whatever the sink

@@ -106,6 +106,7 @@ Cuts findCuts(const Field& field, const std::vector<openvdb::Coord>& tiles, Inte
     cuts.arrows.of.resize(tiles.size());
     std::atomic<std::int64_t> cutEdges{0};
     tbb::enumerable_thread_specific<TileCutter> cutters([&] { return TileCutter(field.sampler()); });
+    interrupt.expectLoops(1);
     parallelRanges(std::int64_t(tiles.size()), interrupt, [&](std::int64_t begin, std::int64_t end) {
         TileCutter& cutter = cutters.local();
         std::int64_t sum = 0;

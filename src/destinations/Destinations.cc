@@ -89,6 +89,7 @@ Destinations findDestinations(const Field& field, const Layout& layout, const Ar
     destinations.numberMoves(labels.manifold);
     const auto& cutTiles = arrows.tiles; // no other holds a manifold vertex
     tbb::enumerable_thread_specific<Nearest> parts([&] { return Nearest(field.sampler()); });
+    interrupt.expectLoops(1);
     parallelRanges(std::int64_t(cutTiles.size()), interrupt, [&](std::int64_t begin, std::int64_t end) {
         Nearest& nearest = parts.local();
         for (std::int64_t i = begin; i < end; ++i) {

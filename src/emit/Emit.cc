@@ -12,6 +12,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -177,9 +178,9 @@ private:
     }
 
     void pass(Parcel& parcel) {
-        const double done = double(parcel.chunk.firstTet) / double(mNumbering.tets());
-        if (mInterrupt.poll(int(100.0 * done))) return;
+        if (mInterrupt.poll(int(100.0 * double(mPassed) / double(mNumbering.tets())))) return;
         mSink.chunk(parcel.chunk);
+        mPassed += std::int64_t(parcel.chunk.tets.size());
         mSpare.push(&parcel);
     }
 
@@ -189,6 +190,7 @@ private:
     MeshSink& mSink;
     Interrupt& mInterrupt;
     const MeshWants mWants;
+    std::atomic<std::int64_t> mPassed{0}; ///< tets the sink has got
     tbb::concurrent_vector<std::unique_ptr<Parcel>> mParcels; ///< all, wherever an exception leaves them
     tbb::concurrent_queue<Parcel*> mSpare;
 };
@@ -208,6 +210,7 @@ AngleSum measureMesh(const Vertices& vertices, const Flips& flips, const Grading
     Emitters emitters(
         [&] { return std::make_unique<TileEmitter>(vertices, flips, grading, numbering, frame); });
     // Surface tiles are in the first tier.
+    interrupt.expectLoops(1);
     parallelRanges(grading.tiers[0].spans.size(), interrupt, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t span = begin; span < end; ++span) emitters.local()->measure(0, span);
     });

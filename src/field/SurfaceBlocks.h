@@ -239,6 +239,7 @@ void forEachSurfaceBlock(const TreeT& tree, const Level& level, std::int64_t max
         if (mixed.any()) visitors.local()(block, mixed);
     };
     const openvdb::tree::LeafManager<const TreeT> leaves(tree);
+    interrupt.expectLoops(1); // what follows takes long only where the tree has few leaves
     parallelRanges(std::int64_t(leaves.leafCount()), interrupt, [&](std::int64_t begin, std::int64_t end) {
         BlockSigns<TreeT> signs(tree, level);
         for (std::int64_t l = begin; l < end; ++l) {

@@ -213,6 +213,7 @@ Flips chooseFlips(const Vertices& vertices, int version, Interrupt& interrupt) {
     const std::int64_t tiles = vertices.layout.surfaceCount();
     std::vector<TileFlipper::Result> parts(tiles);
     const auto farMoves = findFarMoves(vertices, interrupt);
+    interrupt.expectLoops(1); // the other one takes no time
     tbb::enumerable_thread_specific<TileFlipper> flippers(
         [&] { return TileFlipper(vertices, farMoves, version >= 2); });
     parallelRanges(tiles, interrupt, [&](std::int64_t begin, std::int64_t end) {

@@ -72,12 +72,12 @@ openvdb::GridClass classOf(GridArchive& archive, const Entry& entry) {
     return entry.grid ? archive.readHead(entry)->getGridClass() : openvdb::GRID_UNKNOWN;
 }
 
-/// The name that means the grid, and no other.
-std::string nameOf(const std::vector<Entry>& entries, std::size_t i) {
-    const std::string name = plainName(entries[i]);
+/// The name that findByName() takes for an entry.
+std::string uniqueName(const std::vector<Entry>& entries, std::size_t index) {
+    const std::string name = plainName(entries[index]);
     const auto same = namesakes(entries, name);
-    const auto index = std::find(same.begin(), same.end(), i) - same.begin();
-    return same.size() > 1 || name.empty() ? name + "[" + std::to_string(index) + "]" : name;
+    if (same.size() == 1 && !name.empty()) return name;
+    return name + "[" + std::to_string(std::find(same.begin(), same.end(), index) - same.begin()) + "]";
 }
 
 /// One line such as "density (float, fog volume), v[0] (vec3s, unknown), v[1] (vec3s, unknown)".
@@ -89,7 +89,7 @@ std::string listing(GridArchive& archive) {
         if (i > 0) list += ", ";
         if (i == maxGrids) return list + "and " + std::to_string(entries.size() - i) + " more";
 
-        std::string name = nameOf(entries, i);
+        std::string name = uniqueName(entries, i);
         if (name.size() > maxName) name = name.substr(0, maxName) + "...";
         list += name + " (";
         list += entries[i].grid ? entries[i].grid->valueType() + ", " +
@@ -183,11 +183,24 @@ std::vector<GridHead> readHeads(const std::string& path) {
         const std::vector<Entry>& entries = archive.entries();
         std::vector<GridHead> heads;
         for (std::size_t i = 0; i < entries.size(); ++i) {
-            GridHead head{nameOf(entries, i), entries[i].descriptor.gridType(), nullptr};
+            GridHead head{uniqueName(entries, i), entries[i].descriptor.gridType(), nullptr};
             if (entries[i].grid) head.grid = archive.readHead(entries[i]);
             heads.push_back(head);
         }
         return heads;
+    });
+}
+
+std::vector<std::string> scalarGrids(const std::string& path) {
+    return withArchive(path, [&](GridArchive& archive) {
+        const auto& entries = archive.entries();
+        std::vector<std::string> names;
+        for (std::size_t i = 0; i < entries.size(); ++i) {
+            if (isScalar(entries[i])) names.push_back(uniqueName(entries, i));
+        }
+        if (!names.empty()) return names;
+        throw UnsupportedGrid(path + (entries.empty() ? " holds no grids"
+                                                      : " holds no float or double grid, only: " + listing(archive)));
     });
 }
 

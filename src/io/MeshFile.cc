@@ -210,6 +210,10 @@ const MeshFormat& MeshFile::formatOf(const std::string& path, const std::string&
     return find(path, format, options).format;
 }
 
+std::vector<std::string> MeshFile::filesOf(const std::string& path, const std::string& format) {
+    return pathsOf(path, find(path, format));
+}
+
 void MeshFile::requireFields(const MeshFormat& format) {
     if (format.holdsFields) return;
     throw BadOption("the format " + format.name + " is written without fields; those with fields are " +

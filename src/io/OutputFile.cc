@@ -32,6 +32,8 @@ std::filesystem::path followLinks(std::filesystem::path path) {
     throw FileError("cannot write " + path.string() + ": " + std::strerror(ELOOP));
 }
 
+std::string temporaryPrefix(int pid) { return ".vdbtet-" + std::to_string(pid) + "-"; }
+
 /// Find a name beside the target that is not taken, for a file that @a make(path) makes.
 /// @return what that returns, or -1 and errno
 template <typename Make>
@@ -39,8 +41,7 @@ int makeBeside(const std::string& target, std::string& path, const Make& make) {
     const auto directory = std::filesystem::path(target).parent_path();
     for (int attempt = 0;; ++attempt) {
         // Not derived from the target's name, which may be as long as a name can be.
-        const auto name = ".vdbtet-" + std::to_string(::getpid()) + "-" + std::to_string(attempt) + ".tmp";
-        path = directory / name;
+        path = directory / (temporaryPrefix(::getpid()) + std::to_string(attempt) + ".tmp");
         const int result = make(path.c_str());
         if (result >= 0 || errno != EEXIST) return result;
     }
@@ -159,6 +160,18 @@ void OutputFile::commit() {
     if (::close(fd) != 0 && errno != EINTR) fail(errno);
     if (std::rename(mTemporary.c_str(), mTarget.c_str()) != 0) fail(errno);
     mTemporary.clear();
+}
+
+void OutputFile::removeLeft(const std::string& path, int pid) {
+    const auto directory = followLinks(path).parent_path();
+    std::error_code error; // what cannot be listed or removed stays
+    std::vector<std::filesystem::path> left;
+    for (std::filesystem::directory_iterator entry(directory.empty() ? "." : directory, error), none;
+         !error && entry != none; entry.increment(error)) {
+        if (entry->path().filename().string().rfind(temporaryPrefix(pid), 0) == 0)
+            left.push_back(entry->path());
+    }
+    for (const auto& file : left) std::filesystem::remove(file, error);
 }
 
 void OutputFile::fail(int error) const {

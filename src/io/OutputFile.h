@@ -31,6 +31,9 @@ public:
     void commit();
     const std::string& path() const { return mPath; }
 
+    /// Remove what the process @a pid, which has ended, has left of a file for the target @a path.
+    static void removeLeft(const std::string& path, int pid);
+
 private:
     friend class SpoolFile;
 

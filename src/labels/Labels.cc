@@ -19,6 +19,7 @@ public:
     Labelling(const Layout& layout, const Arrows& arrows, Interrupt& interrupt)
         : mLayout(layout), mArrows(arrows), mInterrupt(interrupt), mUndecided(layout.surfaceTiles.size()),
           mManifold(layout.surfaceTiles.size()) {
+        mInterrupt.expectLoops(1 + 2 * kRounds);
         // A vertex without arrows is trivially in K. Then so is every vertex that is neither manifold nor
         // undecided.
         forTiles([&](TileRef t) {
@@ -29,8 +30,7 @@ public:
     }
 
     Labels run() {
-        // Resolved surfaces settle in two or three rounds. Each phase reads one lattice and writes the other.
-        constexpr int kRounds = 3;
+        // Each phase reads one lattice and writes the other.
         for (int round = 0; round < kRounds; ++round) {
             for (bcc::Lattice lattice : {bcc::A, bcc::B}) {
                 forTiles([&](TileRef t) { settleTile(t, lattice); });
@@ -49,6 +49,9 @@ public:
     }
 
 private:
+    /// Resolved surfaces settle in two or three rounds.
+    static constexpr int kRounds = 3;
+
     /// Call @a body for all tiles with cut edges.
     template <typename Body>
     void forTiles(Body&& body) {

@@ -155,6 +155,7 @@ Numbering numberMesh(const Vertices& vertices, const Flips& flips, const Grading
     numbering.firstSpan.push_back(0);
     for (auto* first : {&numbering.firstPoint, &numbering.firstTet, &numbering.firstTriangle})
         first->push_back(0);
+    interrupt.expectLoops(1); // the higher tiers have few tiles
     for (int tier = 0; tier <= grading.last(); ++tier) {
         const Spans& spans = grading.tiers[tier].spans;
         std::vector<TileMask>& usedA = numbering.usedA[tier];

@@ -260,6 +260,9 @@ void compact(const Vertices& vertices, const VertexMasks& changed, Moves& moves)
     moves.offsets.resize(std::size_t(moves.number()));
 }
 
+/// A sweep finds about a third of the last one's work.
+int percentAfter(double sweeps) { return int(100.0 * (1.0 - std::pow(3.0, -sweeps))); }
+
 } // namespace
 
 Optimized optimize(const Field& field, const Vertices& vertices, const Flips& flips,
@@ -290,8 +293,7 @@ Optimized optimize(const Field& field, const Vertices& vertices, const Flips& fl
     for (; result.sweeps < options.sweeps; ++result.sweeps) {
         bool any = false;
         for (int parity = 0; parity < kParities; ++parity) {
-            if (interrupt.poll(100 * (result.sweeps * kParities + parity) / (options.sweeps * kParities)))
-                return result;
+            if (interrupt.poll(percentAfter(result.sweeps + double(parity) / kParities))) return result;
             std::vector<TileRef> tiles;
             for (std::int64_t t = 0; t < count; ++t) {
                 if (parityOf(vertices.layout.surfaceTiles[t]) != parity) continue;

@@ -181,6 +181,7 @@ std::vector<std::int64_t> findPinched(const Vertices& vertices, const Flips& fli
     std::vector<std::vector<std::int64_t>> found(tiles);
     tbb::enumerable_thread_specific<std::unique_ptr<PinchFinder>> finders(
         [&] { return std::make_unique<PinchFinder>(vertices, flips); });
+    interrupt.expectLoops(1);
     parallelRanges(tiles, interrupt, [&](std::int64_t begin, std::int64_t end) {
         PinchFinder& finder = *finders.local();
         for (std::int64_t t = begin; t < end; ++t) finder.find(TileRef(t), found[t]);

@@ -40,6 +40,7 @@ Layout makeLayout(std::vector<Coord> surfaceTiles, const std::vector<TileSigns>&
     }
     layout.surfaceTiles = std::move(surfaceTiles);
     layout.neighbours.resize(std::size_t(count));
+    interrupt.expectLoops(1);
     parallelRanges(count, interrupt, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t t = begin; t < end; ++t) {
             const auto around = layout.spans.around(layout.surfaceTiles[t]);

@@ -1,9 +1,12 @@
 /// @file make_fixtures.cc
-/// Writes the .vdb files that the tests of vdb_tet read into the working directory.
+/// Writes the .vdb files that the tests of vdb_tet read into the working directory: with --sequence those of a
+/// sequence, else all others.
 #include <openvdb/openvdb.h>
+#include <openvdb/tools/Composite.h>
 #include <openvdb/tools/LevelSetSphere.h>
 #include <openvdb/tools/LevelSetUtil.h>
 
+#include <filesystem>
 #include <string>
 
 namespace {
@@ -57,14 +60,39 @@ openvdb::GridPtrVec linearFields() {
     return {heat, count, vel};
 }
 
+/// Two balls that come out of each other, at a time from 0 to 1.
+openvdb::GridBase::Ptr splitting(double time) {
+    const auto ball = [&](double x) {
+        return openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(0.5f, openvdb::Vec3f(float(x), 0, 0), 0.1f);
+    };
+    const auto grid = ball(0.3 - 0.8 * time);
+    openvdb::tools::csgUnion(*grid, *ball(0.3 + 0.8 * time));
+    grid->setName("drops");
+    return grid;
+}
+
 void write(const std::string& path, const openvdb::GridCPtrVec& grids) {
     openvdb::io::File(path).write(grids);
 }
 
+/// frame.0001.vdb to frame.0024.vdb, of which the seventh is cut short.
+void writeSequence() {
+    constexpr int kFrames = 24;
+    for (int frame = 1; frame <= kFrames; ++frame) {
+        const std::string number = std::to_string(10000 + frame).substr(1);
+        write("frame." + number + ".vdb", {splitting(double(frame - 1) / (kFrames - 1))});
+    }
+    std::filesystem::resize_file("frame.0007.vdb", 2000);
+}
+
 } // namespace
 
-int main() {
+int main(int argc, char** argv) {
     openvdb::initialize();
+    if (argc > 1 && std::string(argv[1]) == "--sequence") {
+        writeSequence();
+        return 0;
+    }
     const auto vectors = openvdb::Vec3SGrid::create();
     vectors->setName("vel");
     write("sphere.vdb", {sphere(1.0f, "ball")});

@@ -13,7 +13,7 @@ import sys
 import unittest
 
 sys.path.append(os.path.join(os.path.dirname(__file__), "..", "support"))
-from tool import VDB_TET, ToolTest, wait_until_writing
+from tool import VDB_TET, ToolTest, run_one_test, wait_until_writing
 
 
 def run(*arguments, **options):
@@ -336,7 +336,4 @@ class VdbTet(ToolTest):
 
 
 if __name__ == "__main__":
-    result = unittest.main(argv=[sys.argv[0], "VdbTet.test_" + sys.argv[3]], exit=False).result
-    for _, reason in result.skipped:
-        print("SKIPPED:", reason)
-    sys.exit(77 if result.skipped else not result.wasSuccessful())
+    run_one_test(VdbTet)

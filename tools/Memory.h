@@ -1,0 +1,17 @@
+/// @file Memory.h
+/// How much memory there is for jobs, and how many of them fit.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+/// @return the bytes that can be had without swapping, by /proc/meminfo and the limits of this process's
+/// control groups; nothing where neither tells
+/// @param root  of the file system, for tests
+std::optional<std::int64_t> freeMemory(const std::string& root = "");
+
+/// @return how many jobs may run at once: at least one, and at most @a threads
+/// @param free  bytes, for all of them
+/// @param peak  the most that one has taken
+int jobsThatFit(std::int64_t free, std::int64_t peak, int threads);
