@@ -29,6 +29,12 @@ double roundingStep(double magnitude, int digits, double spacing) {
     return std::ldexp(1.0, std::ilogb(magnitude) + 1 - digits) / spacing;
 }
 
+/// @param places  in units of the lattice
+std::vector<openvdb::Vec3d> inWorld(const Frame& frame, std::vector<openvdb::Vec3d> places) {
+    for (openvdb::Vec3d& place : places) place = frame.world(place);
+    return places;
+}
+
 MeshTotals totalsOf(const Numbering& numbering, const Frame& frame) {
     // A dihedral angle turns by at most about 35 times the relative error of its vertices: two faces, each
     // tilted by the errors of its three vertices over heights that the angle bounds keep above c / 6.
@@ -105,11 +111,13 @@ bool mesh(const Field& field, const Frame& frame, const Options& options, int ma
     report.extraFlips = flips.extra;
     report.lastResortFlips = flips.lastResort;
     report.conflicts = flips.conflicts;
+    report.places.conflicts = inWorld(frame, flips.conflictPlaces);
     const Repair repair =
         stage("repair", [&] { return repairBoundary(vertices, flips, options.boundary, interrupt); });
     if (report.cancelled) return true;
     if (repair.leavesSurface && margin == 0) return false;
     report.boundary = repair.counts;
+    report.places.pinched = inWorld(frame, repair.pinched);
     if (!repair.changes.tiles.empty()) vertices.changes = &repair.changes;
     Optimized optimized;
     if (options.optimize) {
@@ -140,6 +148,7 @@ bool mesh(const Field& field, const Frame& frame, const Options& options, int ma
     report.tetsOfLevel = numbering.tetsOfLevel;
     while (report.tetsOfLevel.size() > 1 && report.tetsOfLevel.back() == 0) report.tetsOfLevel.pop_back();
     report.ambiguous = numbering.ambiguous;
+    report.places.ambiguous = inWorld(frame, numbering.ambiguousPlaces);
     report.bounds = numbering.bounds;
     if (report.tets == 0) {
         throw NoSurface(
@@ -159,6 +168,7 @@ bool mesh(const Field& field, const Frame& frame, const Options& options, int ma
     if (report.cancelled) return true;
     report.angles = angles.stats();
     report.percentiles = angles.percentiles();
+    report.angleBins = angles.bins();
     report.anglesBefore = {report.angles.min, report.angles.max};
     if (options.optimize) {
         // What was not measured before are tets of the lattice.

@@ -58,7 +58,9 @@ int Batch::run() {
     if (exitCode() > 128) {
         const auto written = std::count_if(mOutcomes.begin(), mOutcomes.end(),
                                            [](const Outcome& one) { return one.status == Status::Done; });
-        complain(mJobs.size() == 1
+        complain(mJobs.size() == 1 && mOutcomes[0].meshWritten
+                     ? "interrupted; the mesh is written, the report is not"
+                 : mJobs.size() == 1
                      ? "interrupted; nothing was written"
                      : fmt::format("interrupted; {} of {} are done, and --resume does the others", written,
                                    mJobs.size()));
@@ -176,6 +178,7 @@ void Batch::finish(Running& running) {
     } else if (mSignals.first() != 0 || last.contains("cancelled")) {
         const int signal = last.contains("cancelled") ? last["cancelled"].get<int>() : mSignals.first();
         outcome.status = Status::Interrupted;
+        outcome.meshWritten = last.value("written", false);
         outcome.code = 128 + signal;
         log("fail", running.index, {{"error", fmt::format("interrupted (signal {})", signal)}});
     } else {

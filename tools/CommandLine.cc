@@ -5,6 +5,7 @@
 #include "Manual.h"
 #include "Suggest.h"
 #include "UsageError.h"
+#include "report/ReportPage.h"
 #include "surface/TriangleMesh.h"
 
 #include <vdbtet/MeshFile.h>
@@ -65,6 +66,7 @@ void check(const CommandLine& line) {
         throw UsageError(
             "--voxel-size is for surfaces, .obj, .ply or .stl; the lattice of a volume is set by "
             "--voxels or --spacing");
+    if (isReportPage(line.report)) requireReportPages();
     if (line.allGrids && !line.name.empty())
         throw UsageError("--all-grids takes every grid, and --name one; give only one of the two");
 }
@@ -228,8 +230,10 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
     app.add_option("-j,--threads", line.threads, "Threads to use. Default: 0, all")
         ->check(CLI::Range(0, 4096).description(""))
         ->type_name("N");
-    app.add_option("--report", line.report, "Write what was done and measured to this file")
-        ->type_name("FILE.json");
+    app.add_option(
+           "--report", line.report,
+           "Write what was done and measured to this file: for programs, or for people, with a picture")
+        ->type_name("FILE.json|FILE.html");
     app.add_flag("--dry-run", line.dryRun, "Count, and say how large the file would be, but write no mesh");
     app.add_flag("-q,--quiet", line.quiet, "Print nothing but errors");
     app.add_option("--frames", line.frames,

@@ -31,7 +31,7 @@ struct CommandLine {
     bool boundaryFlag = false, minDihedral = false, distance = false; ///< fields of the mesh itself
     std::optional<double> distanceWidth;
     double scale = 1.0;
-    std::string report; ///< JSON file; empty: none
+    std::string report; ///< JSON, or a page if it ends in .html; empty: none
     vdbtet::Options options;
     int threads = 0; ///< 0: all
     bool quiet = false;

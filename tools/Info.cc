@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -153,10 +154,11 @@ std::string tableOf(const std::vector<Row>& rows) {
 json describeFile(const std::string& path, const std::string& name,
                   openvdb::util::NullInterrupter& interrupter) {
     json file = {{"file", path}, {"grids", json::array()}};
-    const ReadingLimits limits(path);
+    std::optional<ReadingLimits> limits(path);
     for (const vdbtet::GridHead& head : vdbtet::readHeads(path)) file["grids"].push_back(describeHead(head));
     try {
         const auto grid = vdbtet::readGrid(path, name);
+        limits.reset();
         file["meshed"] = grid->getName();
         file["uniform"] = countMesh(*grid, false, interrupter);
         file["graded"] = countMesh(*grid, true, interrupter);

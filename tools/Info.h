@@ -14,7 +14,8 @@
 int info(int argc, const char* const* argv);
 
 /// @brief List the grids of a file, and count the mesh that vdb_tet would make.
-/// @details Runs the stages near the surface, so the numbers of points and tets and the sizes of files are exact.
+/// @details Runs the stages near the surface, so the numbers of points and tets and the sizes of files are
+/// exact.
 /// @param name         of the grid to count for; empty: the one that would be meshed
 /// @param interrupter  once it has said stop, counts are missing
 /// @return numbers as JSON; where there is nothing to mesh, "obstacle" says why

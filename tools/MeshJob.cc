@@ -7,6 +7,7 @@
 #include "Reporter.h"
 #include "Signals.h"
 #include "Summary.h"
+#include "report/ReportPage.h"
 #include "surface/SurfaceVolume.h"
 
 #include <vdbtet/Errors.h>
@@ -179,7 +180,14 @@ void mesh(const CommandLine& line, const Channel& channel) {
     summary.gridType = grid->valueType() + ", " + openvdb::GridBase::gridClassToString(grid->getGridClass());
     summary.bytes = output.bytes;
 
-    if (reportFile) {
+    if (reportFile && isReportPage(line.report)) {
+        reporter.start("report");
+        if (!writeReportPage(*reportFile, line, summary, *grid, &reporter)) {
+            channel.send({{"cancelled", Signals::first()}, {"written", !line.dryRun}});
+            return;
+        }
+        reporter.end();
+    } else if (reportFile) {
         const std::string json = asJson(line, summary);
         reportFile->writeAt(0, json.data(), json.size());
         reportFile->commit();

@@ -2,7 +2,8 @@
 /// What a child process does: read, mesh into a sink, tell.
 ///
 /// Messages to the parent are objects. On the way: {stage, percent, tets}, or {warning}, a line. At the end
-/// one of {done}, of what the job came to; {error, code}, of a line and an exit code; {cancelled}, of a signal.
+/// one of {done}, of what the job came to; {error, code}, of a line and an exit code; {cancelled}, of a
+/// signal.
 #pragma once
 
 #include "CommandLine.h"

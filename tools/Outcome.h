@@ -15,9 +15,10 @@
 struct Outcome {
     enum class Status { Waiting, Running, Done, Failed, Skipped, Interrupted };
     Status status = Status::Waiting;
-    int code = 0;        ///< exit code
-    std::string message; ///< of a failure
-    nlohmann::json done; ///< the message of that name; see MeshJob.h
+    bool meshWritten = false; ///< though interrupted
+    int code = 0;             ///< exit code
+    std::string message;      ///< of a failure
+    nlohmann::json done;      ///< the message of that name; see MeshJob.h
     double seconds = 0.0;
     std::int64_t peakMemory = 0; ///< bytes
 };

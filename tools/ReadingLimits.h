@@ -8,8 +8,8 @@
 
 /// @brief While it lives, this process can take neither much more memory nor much longer than a sound file of
 /// that size would.
-/// @details Memory beyond it is std::bad_alloc, time beyond it ends the process by SIGXCPU. Not under sanitizers,
-/// which take more.
+/// @details Memory beyond it is std::bad_alloc, time beyond it ends the process by SIGXCPU. Not under
+/// sanitizers, which take more.
 class ReadingLimits {
 public:
     explicit ReadingLimits(const std::string& path);

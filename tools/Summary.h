@@ -11,9 +11,9 @@
 #include <vector>
 
 struct Summary {
-    vdbtet::Report report;   ///< with the reading as its first stage
-    std::string gridType;    ///< such as "float, level set"
-    std::string surface;     ///< what it was made from, or empty
+    vdbtet::Report report; ///< with the reading as its first stage
+    std::string gridType;  ///< such as "float, level set"
+    std::string surface;   ///< what it was made from, or empty
     std::vector<std::string> warnings;
     double seconds = 0.0;    ///< reading and meshing
     std::uint64_t bytes = 0; ///< size of the mesh file, also of the one a dry run does not write

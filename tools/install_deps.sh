@@ -6,12 +6,16 @@
 set -eu
 
 packages="g++ cmake ninja-build libopenvdb-dev libtbb-dev libblosc-dev zlib1g-dev libhdf5-dev libboost-iostreams-dev
-    libcgal-dev libcli11-dev libfmt-dev nlohmann-json3-dev"
+    libcgal-dev libcli11-dev libfmt-dev nlohmann-json3-dev libjs-three"
 for option in "$@"; do
     case $option in
     --tests) packages="$packages catch2 python3" ;;
     --bench) packages="$packages libbenchmark-dev python3" ;;
-    --ci) packages="$packages clang-format-14 python3-vtk9 python3-h5py python3-meshio python3-gmsh tetgen" ;;
+    --ci)
+        packages="$packages clang-format-14 python3-vtk9 python3-h5py python3-meshio python3-gmsh tetgen"
+        # Ubuntu has Chromium as a snap only; there what needs a browser is skipped.
+        grep -qx 'ID=ubuntu' /etc/os-release || packages="$packages chromium chromium-driver"
+        ;;
     *) echo "usage: tools/install_deps.sh [--tests] [--bench] [--ci]" >&2 && exit 2 ;;
     esac
 done

@@ -22,10 +22,10 @@ openvdb::GridBase::Ptr readGrid(const std::string& path, const std::string& name
 
 /// What a .vdb file says of one of its grids.
 struct GridHead {
-    std::string name;                  ///< as readGrid() takes it
-    std::string type;                  ///< such as Tree_float_5_4_3
-    openvdb::GridBase::ConstPtr grid;  ///< its metadata and transform, and no values to rely on; null if
-                                       ///< OpenVDB does not know the type
+    std::string name;                 ///< as readGrid() takes it
+    std::string type;                 ///< such as Tree_float_5_4_3
+    openvdb::GridBase::ConstPtr grid; ///< its metadata and transform, and no values to rely on; null if
+                                      ///< OpenVDB does not know the type
 };
 
 /// @return all grids of a .vdb file, in its order, with their trees left unread
@@ -42,5 +42,9 @@ std::vector<std::string> scalarGrids(const std::string& path);
 /// @throw FileError as above
 std::vector<openvdb::GridBase::ConstPtr>
 readFields(const std::string& path, const std::vector<std::string>& names, const std::string& except = {});
+
+/// @brief Read what a .vdb file says of itself, such as who made it.
+/// @throw FileError as above
+openvdb::MetaMap readFileMetadata(const std::string& path);
 
 } // namespace vdbtet

@@ -34,6 +34,13 @@ struct AnglePercentiles {
     std::array<double, 3> low{}, high{};
 };
 
+/// How many dihedral angles there are between two, in degrees; where these are equal, how many there are of
+/// exactly that.
+struct AngleBin {
+    double low = 0.0, high = 0.0;
+    std::int64_t count = 0;
+};
+
 /// @return the six dihedral angles of the tet (a,b,c,d) in degrees, at its edges ab, ac, ad, bc, bd, cd.
 /// @note An inverted tet shows the angles of its mirror image: look at signedVolume6() too.
 std::array<double, 6> dihedralAngles(const openvdb::Vec3d& a, const openvdb::Vec3d& b,

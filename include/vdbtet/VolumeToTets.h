@@ -79,6 +79,15 @@ struct BoundaryCounts {
     std::int64_t left = 0;   ///< of the vertices, those that are still bad
 };
 
+/// Where that is which a report counts: the first kMost of each kind in the order of tiles, world space.
+struct Places {
+    static constexpr std::size_t kMost = 1000;
+
+    std::vector<openvdb::Vec3d> ambiguous; ///< the centroids of the tets
+    std::vector<openvdb::Vec3d> conflicts; ///< the centres of the octahedra
+    std::vector<openvdb::Vec3d> pinched;   ///< the vertices of BoundaryCounts::found, before any is mended
+};
+
 /// What a run did, and what it was done on.
 struct Report {
     bool cancelled = false;
@@ -108,13 +117,16 @@ struct Report {
     std::int64_t backLabelled = 0;    ///< vertices that the serial worklist settled
     std::int64_t tieBroken = 0;       ///< vertices settled by the rule for exact ties and cycles
 
+    Places places; ///< of ambiguous, conflicts and boundary.found
+
     std::int64_t verticesMoved = 0; ///< by optimisation
     int sweeps = 0;                 ///< of optimisation
 
     AngleStats angles; ///< over all tets
     AnglePercentiles percentiles;
-    AngleRange anglesBefore; ///< before optimisation
-    double angleMin = 0.0;   ///< the bounds proven for this run: the angles lie strictly between them
+    std::vector<AngleBin> angleBins; ///< the same angles, ascending
+    AngleRange anglesBefore;         ///< before optimisation
+    double angleMin = 0.0;           ///< the bounds proven for this run: the angles lie strictly between them
     double angleMax = 180.0;
     openvdb::BBoxd bounds; ///< of the points, world space
 

@@ -4,6 +4,8 @@
 
 #include "flips/Slices.h"
 
+#include <vdbtet/VolumeToTets.h>
+
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
@@ -84,6 +86,7 @@ public:
 
     Result flip(TileRef tile) {
         Result result;
+        mConflicts.clear();
         if (!nearManifold(tile)) return result;
         mLocal.load(tile);
         const Surroundings around(mVertices.layout.neighbours[tile]);
@@ -104,6 +107,9 @@ public:
         result.codes.assign(mCodes.begin(), mCodes.end());
         return result;
     }
+
+    /// The centres of the conflicts of the tile flipped last, seen from it.
+    const std::vector<openvdb::Vec3d>& conflicts() const { return mConflicts; }
 
 private:
     /// An octahedron that may be flipped has a manifold vertex.
@@ -168,7 +174,10 @@ private:
         spines.forEach([&](int n) {
             const LocalOctahedron octahedron = localOctahedron(lattice, axis, localIndex(lattice, n));
             const ExtraFlip flip = chooseExtraSlice(mLocal, octahedron);
-            result.conflicts += flip.conflict;
+            if (flip.conflict) {
+                ++result.conflicts;
+                mConflicts.push_back(0.5 * (homeOf(octahedron[0]) + homeOf(octahedron[1])));
+            }
             if (flip.slice == bcc::S) return;
             mCodes.push_back(Flips::encode({lattice, axis, flip.slice, n}));
             ++(flip.conflict ? result.lastResort : result.extra);
@@ -181,6 +190,7 @@ private:
     LocalVertices mLocal;
     PaddedMask mFar[2];                ///< mFarMoves around the tile
     std::vector<std::uint16_t> mCodes; ///< of the tile
+    std::vector<openvdb::Vec3d> mConflicts;
     std::vector<Flip> mActive;
     std::vector<LocalOctahedron> mOctahedra; ///< of mActive
     std::vector<bcc::Slice> mSlices;         ///< for mOctahedra
@@ -231,6 +241,16 @@ Flips chooseFlips(const Vertices& vertices, int version, Interrupt& interrupt) {
         flips.extra += part.extra;
         flips.lastResort += part.lastResort;
         flips.conflicts += part.conflicts;
+    }
+    // Conflicts are rare, so their tiles are looked at once more instead of keeping lists for all.
+    for (std::int64_t t = 0; t < tiles && flips.conflictPlaces.size() < Places::kMost; ++t) {
+        if (parts[t].conflicts == 0) continue;
+        TileFlipper& flipper = flippers.local();
+        flipper.flip(TileRef(t));
+        for (const openvdb::Vec3d& centre : flipper.conflicts()) {
+            if (flips.conflictPlaces.size() < Places::kMost)
+                flips.conflictPlaces.push_back(vertices.layout.origin(TileRef(t)) + centre);
+        }
     }
     return flips;
 }

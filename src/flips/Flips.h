@@ -7,6 +7,8 @@
 #include "bcc/Lattice.h"
 #include "destinations/LocalVertices.h"
 
+#include <openvdb/Types.h>
+
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -44,6 +46,8 @@ struct Flips {
     std::int64_t extra = 0;      ///< flipped by Algorithm 5
     std::int64_t lastResort = 0; ///< of the conflicts, those flipped
     std::int64_t conflicts = 0;  ///< octahedra of Algorithm 5 with another manifold vertex
+    /// The centres of the first Places::kMost conflicts, in units of the lattice.
+    std::vector<openvdb::Vec3d> conflictPlaces;
 };
 
 /// @brief Choose all flips.

@@ -23,7 +23,7 @@ GridArchive::GridArchive(const std::string& path)
     setFormatVersion(mStream);
     setLibraryVersion(mStream);
     setDataCompression(mStream);
-    openvdb::MetaMap().readMeta(mStream);
+    mMetadata.readMeta(mStream);
 
     const std::int32_t count = readGridCount(mStream);
     if (count < 0) throw FileError(mPath + " is damaged: it claims to hold a negative number of grids");

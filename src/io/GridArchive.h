@@ -31,6 +31,8 @@ public:
 
     /// In file order.
     const std::vector<Entry>& entries() const { return mEntries; }
+    /// Of the file itself.
+    const openvdb::MetaMap& metadata() const { return mMetadata; }
     /// @return the grid's metadata and transform, mostly with an empty tree
     openvdb::GridBase::Ptr readHead(const Entry& entry);
     /// @throw FileError when this OpenVDB lacks the compression the grid is stored with
@@ -44,6 +46,7 @@ private:
     std::string mPath;
     openvdb::io::StreamMetadata::Ptr mStreamMetadata; // the stream refers to it
     std::ifstream mStream;
+    openvdb::MetaMap mMetadata;
     std::vector<Entry> mEntries;
 };
 

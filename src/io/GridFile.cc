@@ -199,9 +199,14 @@ std::vector<std::string> scalarGrids(const std::string& path) {
             if (isScalar(entries[i])) names.push_back(uniqueName(entries, i));
         }
         if (!names.empty()) return names;
-        throw UnsupportedGrid(path + (entries.empty() ? " holds no grids"
-                                                      : " holds no float or double grid, only: " + listing(archive)));
+        throw UnsupportedGrid(path + (entries.empty()
+                                          ? " holds no grids"
+                                          : " holds no float or double grid, only: " + listing(archive)));
     });
+}
+
+openvdb::MetaMap readFileMetadata(const std::string& path) {
+    return withArchive(path, [](GridArchive& archive) { return archive.metadata(); });
 }
 
 std::vector<openvdb::GridBase::ConstPtr>

@@ -5,8 +5,11 @@
 #include "tets/BoundaryFaces.h"
 #include "tets/TileTets.h"
 
+#include <vdbtet/VolumeToTets.h>
+
 #include <tbb/enumerable_thread_specific.h>
 
+#include <algorithm>
 #include <memory>
 
 namespace vdbtet {
@@ -24,7 +27,7 @@ public:
           mTets(vertices, flips) {}
 
     struct Counts {
-        std::int64_t tets = 0, triangles = 0;
+        std::int64_t tets = 0, triangles = 0, ambiguous = 0;
     };
 
     /// @param used  receives the used vertices; nothing in L_B but of a surface tile
@@ -61,7 +64,16 @@ public:
         return counts;
     }
 
-    std::int64_t ambiguous = 0;
+    /// Add the centroids of the ambiguous tets of the surface tile looked at last.
+    void addAmbiguous(TileRef surface, std::vector<openvdb::Vec3d>& centroids) {
+        mPositions.load(mVertices, surface);
+        mTets.forEachAmbiguous([&](const LocalTet& tet) {
+            openvdb::Vec3d sum(0.0);
+            for (int i = 0; i < 4; ++i) sum += mPositions[tet.vertex(i)];
+            centroids.push_back(mVertices.layout.origin(surface) + 0.25 * sum);
+        });
+    }
+
     std::array<std::int64_t, kTetKinds> kinds{};
     std::vector<std::int64_t> tetsOfLevel;
     openvdb::BBoxd bounds;
@@ -79,7 +91,7 @@ private:
             counts.triangles = std::int64_t(mFaces.size());
         }
         counts.tets = mTets.tets();
-        ambiguous += mTets.ambiguous();
+        counts.ambiguous = mTets.ambiguous();
         for (bcc::Lattice lattice : {bcc::A, bcc::B}) {
             used[lattice] = mStates.interiorMask(lattice).core();
             if (graded && lattice == bcc::A) used[lattice] &= mOctants.vertices();
@@ -115,8 +127,7 @@ private:
 
     /// All points lie in the convex hull of the outer ones.
     void expandBounds(TileRef tile, bcc::Lattice lattice, const TileMask& outer) {
-        const openvdb::Coord& at = mVertices.layout.surfaceTiles[tile];
-        const openvdb::Vec3d origin(8.0 * at.x(), 8.0 * at.y(), 8.0 * at.z());
+        const openvdb::Vec3d origin = mVertices.layout.origin(tile);
         const TileMask& moved = mVertices.moved(tile, lattice);
         std::int64_t move = mVertices.firstMove(tile, lattice);
         moved.forEach([&](int n) {
@@ -134,6 +145,7 @@ private:
     LocalOctants mOctants;
     LocalStates mStates;
     TileTets mTets;
+    LocalPositions mPositions;
     std::vector<LocalFace> mFaces;
 };
 
@@ -192,11 +204,21 @@ Numbering numberMesh(const Vertices& vertices, const Flips& flips, const Grading
             numbering.firstPoint.push_back(numbering.points() + points);
             numbering.firstTet.push_back(numbering.tets() + counts[s].tets);
             numbering.firstTriangle.push_back(numbering.triangles() + counts[s].triangles);
+            numbering.ambiguous += counts[s].ambiguous;
         }
+        // Ambiguous tets are rare, so their tiles are looked at once more instead of keeping lists for all.
+        std::vector<openvdb::Vec3d>& places = numbering.ambiguousPlaces;
+        const auto again = std::make_unique<TileNumberer>(vertices, flips, grading, frame);
+        for (std::int64_t s = 0; s < spans.size() && places.size() < Places::kMost; ++s) {
+            if (counts[s].ambiguous == 0) continue;
+            std::array<TileMask, 2> used;
+            again->number(tier, spans[s].first, spans[s].tile, used);
+            again->addAmbiguous(grading.surfaceOf(tier, spans[s].tile), places);
+        }
+        places.resize(std::min(places.size(), Places::kMost));
         numbering.firstSpan.push_back(numbering.firstSpan.back() + spans.size());
     }
     for (const auto& part : numberers) {
-        numbering.ambiguous += part->ambiguous;
         numbering.bounds.expand(part->bounds);
         for (int kind = 0; kind < kTetKinds; ++kind) numbering.kinds[kind] += part->kinds[kind];
         for (std::size_t level = 0; level < part->tetsOfLevel.size(); ++level)

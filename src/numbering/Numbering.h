@@ -45,7 +45,9 @@ struct Numbering {
     std::vector<std::int64_t> tetsOfLevel; ///< by the level of their coarsest octant
 
     std::int64_t ambiguous = 0; ///< tets of four manifold vertices, which are not in the mesh
-    openvdb::BBoxd bounds;      ///< of the used points, world space
+    /// The centroids of the first Places::kMost of these, in units of the lattice.
+    std::vector<openvdb::Vec3d> ambiguousPlaces;
+    openvdb::BBoxd bounds; ///< of the used points, world space
 };
 
 /// @details Every vertex inside is used that exists. A manifold vertex is used iff one of its 14 lattice

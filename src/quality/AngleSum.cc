@@ -120,33 +120,34 @@ AngleStats AngleSum::stats() {
     return stats;
 }
 
-std::vector<AngleSum::Part> AngleSum::parts() const {
+std::vector<AngleBin> AngleSum::bins() {
+    flush();
     const auto angleAt = [](double bin) { return angleOfSquare(std::min(bin / kFinePerUnit, 2.0) - 1.0); };
-    std::vector<Part> parts;
+    std::vector<AngleBin> bins;
     for (int bin = 0; bin < kFineBins; ++bin) {
         const std::int64_t count = mFine[2 * std::size_t(bin)] + mFine[2 * std::size_t(bin) + 1];
-        if (count > 0) parts.push_back({angleAt(bin + 1.0), angleAt(bin), count});
+        if (count > 0) bins.push_back({angleAt(bin + 1.0), angleAt(bin), count});
     }
     for (std::size_t i = 0; i < mKnown.size(); ++i) {
-        if (mKnown[i] > 0) parts.push_back({5.0 * double(i), 5.0 * double(i), mKnown[i]});
+        if (mKnown[i] > 0) bins.push_back({5.0 * double(i), 5.0 * double(i), mKnown[i]});
     }
-    std::sort(parts.begin(), parts.end(),
-              [](const Part& a, const Part& b) { return a.low + a.high < b.low + b.high; });
-    return parts;
+    std::sort(bins.begin(), bins.end(),
+              [](const AngleBin& a, const AngleBin& b) { return a.low + a.high < b.low + b.high; });
+    return bins;
 }
 
 AnglePercentiles AngleSum::percentiles() {
     const AngleStats all = stats();
-    std::vector<Part> ascending = parts();
+    const std::vector<AngleBin> ascending = bins();
     std::int64_t total = 0;
-    for (const Part& part : ascending) total += part.count;
-    /// Where so many angles have been passed; those of a part are taken to be spread evenly.
+    for (const AngleBin& bin : ascending) total += bin.count;
+    /// Where so many angles have been passed; those of a bin are taken to be spread evenly.
     const auto angleAfter = [&](double count) {
-        for (const Part& part : ascending) {
-            if (count <= double(part.count))
-                return std::clamp(part.low + (part.high - part.low) * count / double(part.count), all.min,
+        for (const AngleBin& bin : ascending) {
+            if (count <= double(bin.count))
+                return std::clamp(bin.low + (bin.high - bin.low) * count / double(bin.count), all.min,
                                   all.max);
-            count -= double(part.count);
+            count -= double(bin.count);
         }
         return all.max;
     };

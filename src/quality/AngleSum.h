@@ -39,20 +39,14 @@ public:
 
     AngleStats stats();
     AnglePercentiles percentiles();
+    /// All angles, ascending; bins are as fine as AnglePercentiles are good.
+    std::vector<AngleBin> bins();
 
 private:
     static constexpr int kBatch = 64;
     static constexpr int kFineBins = 1024;
 
     void flush();
-
-    /// Some angles between two.
-    struct Part {
-        double low, high; ///< degrees
-        std::int64_t count;
-    };
-    /// All angles, ascending.
-    std::vector<Part> parts() const;
 
     Isa mIsa;
     double mMin = 1.0, mMax = -1.0; ///< of the signed squares of the cosines

@@ -5,14 +5,31 @@
 #include "repair/ChangesMaker.h"
 #include "repair/Rounds.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace vdbtet {
+
+namespace {
+
+/// In units of the lattice.
+openvdb::Vec3d positionOf(const Vertices& vertices, std::int64_t id) {
+    const TileRef tile = VertexId::tile(id);
+    const int lattice = VertexId::lattice(id), bit = VertexId::bit(id);
+    const openvdb::Vec3d home = vertices.layout.origin(tile) + homeOf(VertexId::local(id));
+    const TileMask& moved = vertices.moved(tile, lattice);
+    if (!moved.test(bit)) return home;
+    return home + vertices.move(vertices.firstMove(tile, lattice) + moved.rank(bit));
+}
+
+} // namespace
 
 Repair repairBoundary(const Vertices& vertices, const Flips& flips, Boundary mode, Interrupt& interrupt) {
     Repair repair;
     std::vector<std::int64_t> bad = findPinched(vertices, flips, interrupt);
     repair.counts.found = repair.counts.left = std::int64_t(bad.size());
+    for (std::size_t i = 0; i < std::min(bad.size(), Places::kMost); ++i)
+        repair.pinched.push_back(positionOf(vertices, bad[i]));
     if (bad.empty() || mode == Boundary::Raw || interrupt.stopped()) return repair;
 
     Rounds rounds(vertices, flips, std::move(bad));

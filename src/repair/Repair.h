@@ -12,12 +12,15 @@
 #include <vdbtet/VolumeToTets.h>
 
 #include <cstdint>
+#include <vector>
 
 namespace vdbtet {
 
 struct Repair {
     Changes changes;       ///< empty where nothing was
     BoundaryCounts counts; ///< what was found and done
+    /// Where the first Places::kMost of what was found are, in units of the lattice.
+    std::vector<openvdb::Vec3d> pinched;
     /// Whether tets are concerned that no surface tile owns: then all is to be done again with a margin of
     /// one more cell, where that cannot be.
     bool leavesSurface = false;

@@ -87,8 +87,8 @@ void TileTets::findLatticeTets(int axis) {
             mFlippedA[axis] |
             mLocalFlips.mask(bcc::B, (axis + edge.axisOffset) % 3).shifted(lower.x, lower.y, lower.z);
         const TileMask all = present[tet[0]] & present[tet[1]] & present[tet[2]] & present[tet[3]] & ~gone;
-        const TileMask ambiguous =
-            all & manifold[tet[0]] & manifold[tet[1]] & manifold[tet[2]] & manifold[tet[3]];
+        TileMask& ambiguous = mAmbiguousOf[axis][number];
+        ambiguous = all & manifold[tet[0]] & manifold[tet[1]] & manifold[tet[2]] & manifold[tet[3]];
         mLattice[axis][number] = all & ~ambiguous;
         mTets += mLattice[axis][number].count();
         mAmbiguous += ambiguous.count();

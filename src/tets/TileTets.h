@@ -109,6 +109,31 @@ public:
             [&](const Flip& flip) { visitFlipped(bcc::B, flip.axis, flip.slice, flip.vertex, visit); });
     }
 
+    /// Call @a visit(LocalTet) for each ambiguous tet.
+    template <typename Visit>
+    void forEachAmbiguous(Visit&& visit) const {
+        const auto visitSome = [&](LocalTet tet) {
+            int manifold = 0;
+            for (int i = 0; i < 4; ++i) manifold += mStates->manifold(tet.vertex(i));
+            if (manifold == 4 && !isChanged(codeOf(tet))) visit(tet);
+        };
+        const auto visitFour = [&](bcc::Lattice lattice, int axis, int n) {
+            const int lower = localIndex(lattice, n);
+            for (int number = 0; number < 4; ++number)
+                visitSome(
+                    {localOctahedron(lattice, axis, lower), lattice, mLocalFlips.slice(axis, lower), number});
+        };
+        for (int axis = 0; axis < 3; ++axis) {
+            for (int number = 0; number < 4; ++number) {
+                mAmbiguousOf[axis][number].forEach([&](int n) {
+                    visitSome({localOctahedron(bcc::A, axis, localIndex(bcc::A, n)), bcc::A, bcc::S, number});
+                });
+            }
+            mFlippedA[axis].forEach([&](int n) { visitFour(bcc::A, axis, n); });
+        }
+        forEachFlipOfB([&](const Flip& flip) { visitFour(bcc::B, flip.axis, flip.vertex); });
+    }
+
 private:
     void findLatticeTets(int axis);
 
@@ -158,7 +183,7 @@ private:
     const TileChanges* mChanges = nullptr;
     TileRef mTile = 0;
     LocalFlips mLocalFlips;
-    TileMask mLattice[3][4], mFlippedA[3], mManifold[3][6];
+    TileMask mLattice[3][4], mAmbiguousOf[3][4], mFlippedA[3], mManifold[3][6];
     std::int64_t mTets = 0, mAmbiguous = 0;
 };
 

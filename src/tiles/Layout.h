@@ -29,6 +29,8 @@ struct Layout {
     std::vector<Neighbours> neighbours;       ///< of each surface tile
 
     std::int64_t surfaceCount() const { return std::int64_t(surfaceTiles.size()); }
+    /// Of a surface tile: L_A's lowest vertex, in units of the lattice.
+    openvdb::Vec3d origin(TileRef tile) const { return 8.0 * surfaceTiles[std::size_t(tile)].asVec3d(); }
 };
 
 /// @brief Lay out the tiles.

@@ -6,6 +6,8 @@
 #include <openvdb/tools/LevelSetSphere.h>
 #include <openvdb/tools/LevelSetUtil.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <string>
 
@@ -39,6 +41,24 @@ typename GridT::Ptr field(const std::string& name, const ValueF& value) {
     grid->setTransform(openvdb::math::Transform::createLinearTransform(0.15));
     const openvdb::CoordBBox box(openvdb::Coord(-10), openvdb::Coord(10));
     for (auto at = box.begin(); at; ++at) grid->tree().setValue(*at, value(*at));
+    return grid;
+}
+
+/// A ball of a thin wall that meanders, finer in places than its voxels resolve.
+openvdb::GridBase::Ptr lace(const std::string& name) {
+    const double voxel = 0.1, wave = 0.19, width = 3.0 * voxel;
+    const auto grid = openvdb::FloatGrid::create(float(width));
+    grid->setName(name);
+    grid->setGridClass(openvdb::GRID_LEVEL_SET);
+    grid->setTransform(openvdb::math::Transform::createLinearTransform(voxel));
+    const openvdb::CoordBBox box(openvdb::Coord(-16), openvdb::Coord(16));
+    for (auto at = box.begin(); at; ++at) {
+        const openvdb::Vec3d p = grid->indexToWorld(*at), q = p / wave;
+        const double gyroid = std::sin(q.x()) * std::cos(q.y()) + std::sin(q.y()) * std::cos(q.z()) +
+                              std::sin(q.z()) * std::cos(q.x());
+        const double distance = std::max(0.7 * wave * std::abs(gyroid) - 0.7 * voxel, p.length() - 1.2);
+        grid->tree().setValue(*at, float(std::clamp(distance, -width, width)));
+    }
     return grid;
 }
 
@@ -102,6 +122,14 @@ int main(int argc, char** argv) {
     write("level_set_and_fog.vdb", {fog("density"), sphere(1.0f, "ball"), vectors});
     write("two_of_a_name.vdb", {sphere(1.0f, "ball"), sphere(0.5f, "ball")});
     write("two_unnamed.vdb", {sphere(1.0f, ""), sphere(0.5f, "")});
+    write("lace.vdb", {lace("lace")});
+    const auto hostile =
+        sphere(1.0f, "</script><script>document.title = 'run'</script><img src=x onerror=stop()>\xff");
+    hostile->setCreator("<!--<script>&amp;\u2028\"'");
+    hostile->insertMeta("<b>key</b>", openvdb::StringMetadata("{{page.css}} <i>value</i>"));
+    openvdb::MetaMap fileMetadata;
+    fileMetadata.insertMeta("made by", openvdb::StringMetadata("</script>"));
+    openvdb::io::File("hostile.vdb").write(openvdb::GridCPtrVec{hostile}, fileMetadata);
     openvdb::GridCPtrVec fields = {sphere(1.0f, "ball")};
     for (const auto& grid : linearFields()) fields.push_back(grid);
     write("fields.vdb", fields);

@@ -11,7 +11,7 @@ import sys
 import time
 
 sys.path.append(os.path.join(os.path.dirname(__file__), "..", "support"))
-from tool import MAKE_FIXTURES, VDB_TET, ToolTest, children_of, is_alive, run_one_test
+from tool import MAKE_FIXTURES, VDB_TET, ToolTest, children_of, is_alive, main
 
 BAD = "0007"  # the frame that is cut short
 FRAMES = [f"{i:04}" for i in range(1, 25)]
@@ -206,4 +206,4 @@ class Batch(ToolTest):
 
 
 if __name__ == "__main__":
-    run_one_test(Batch)
+    main()

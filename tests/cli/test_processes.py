@@ -11,7 +11,7 @@ import sys
 import time
 
 sys.path.append(os.path.join(os.path.dirname(__file__), "..", "support"))
-from tool import VDB_TET, ToolTest, is_alive, run_one_test, wait_for_child, wait_until_writing
+from tool import VDB_TET, ToolTest, is_alive, main, wait_for_child, wait_until_writing
 
 LONG = ["sphere.vdb", "o.vtu", "-v", "0.05"]  # takes far longer than a signal needs to arrive
 
@@ -188,4 +188,4 @@ class Processes(ToolTest):
 
 
 if __name__ == "__main__":
-    run_one_test(Processes)
+    main()

@@ -13,7 +13,7 @@ import sys
 import unittest
 
 sys.path.append(os.path.join(os.path.dirname(__file__), "..", "support"))
-from tool import VDB_TET, ToolTest, run_one_test, wait_until_writing
+from tool import VDB_TET, ToolTest, main, wait_until_writing
 
 
 def run(*arguments, **options):
@@ -336,4 +336,4 @@ class VdbTet(ToolTest):
 
 
 if __name__ == "__main__":
-    run_one_test(VdbTet)
+    main()

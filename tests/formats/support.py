@@ -7,10 +7,9 @@ import importlib
 import os
 import subprocess
 import sys
-import unittest
 
 sys.path.append(os.path.join(os.path.dirname(__file__), "..", "support"))
-from tool import VDB_TET, ToolTest
+from tool import VDB_TET, ToolTest, main
 
 
 def need(module):
@@ -56,11 +55,3 @@ class FormatTest(ToolTest):
         self.assertTrue((abs(points - expected_points) <= tolerance * abs(expected_points).max()).all())
         self.assertEqual(tets.shape, expected_tets.shape)
         self.assertTrue((tets == expected_tets).all())
-
-
-def main():
-    method = "test_" + sys.argv[3]
-    case = next(test for test in vars(sys.modules["__main__"]).values()
-                if isinstance(test, type) and issubclass(test, FormatTest) and hasattr(test, method))
-    result = unittest.TextTestRunner(verbosity=2).run(case(method))
-    sys.exit(not result.wasSuccessful())

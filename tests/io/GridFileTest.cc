@@ -44,6 +44,16 @@ void write(const std::string& path, const openvdb::GridCPtrVec& grids,
 
 } // namespace
 
+TEST_CASE("a file's own metadata is read") {
+    const TempFolder folder;
+    openvdb::MetaMap metadata;
+    metadata.insertMeta("creator", openvdb::StringMetadata("nobody"));
+    openvdb::io::File(folder.file("ball.vdb")).write({ball()}, metadata);
+    const openvdb::MetaMap read = readFileMetadata(folder.file("ball.vdb"));
+    CHECK(read.metaValue<std::string>("creator") == "nobody");
+    CHECK_THROWS_AS(readFileMetadata(folder.file("none.vdb")), FileError);
+}
+
 TEST_CASE("a file cut short anywhere is an error") {
     const TempFolder folder;
     for (const std::uint32_t compression :

@@ -45,6 +45,9 @@ void requireSameReport(const Report& a, const Report& b) {
     CHECK(a.angles.max == b.angles.max);
     CHECK(a.angles.histogram == b.angles.histogram);
     CHECK(a.bounds == b.bounds);
+    CHECK(a.places.ambiguous == b.places.ambiguous);
+    CHECK(a.places.conflicts == b.places.conflicts);
+    CHECK(a.places.pinched == b.places.pinched);
 }
 
 void requireDeterministic(const openvdb::GridBase& grid, const Options& options) {

@@ -188,6 +188,16 @@ TEST_CASE("percentiles are those of the sorted angles", "[simd]") {
         CHECK(found.low[i] == Approx(angles[rank]).margin(0.2));
         CHECK(found.high[i] == Approx(angles[angles.size() - 1 - rank]).margin(0.2));
     }
+    std::int64_t total = 0;
+    for (const AngleBin& bin : sum.bins()) {
+        const auto counted = std::count_if(angles.begin(), angles.end(), [&](double angle) {
+            // At the edges of a bin rounding decides.
+            return angle >= bin.low - 1e-9 && angle <= bin.high + 1e-9;
+        });
+        CHECK(bin.count <= counted);
+        total += bin.count;
+    }
+    CHECK(total == std::int64_t(angles.size()));
 }
 
 TEST_CASE("slices are chosen the same on every instruction set", "[simd]") {

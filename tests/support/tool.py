@@ -67,9 +67,12 @@ class ToolTest(unittest.TestCase):
         subprocess.run([MAKE_FIXTURES], check=True)
 
 
-def run_one_test(case):
-    """Run the test that the command line names, and end as CTest wants it."""
-    result = unittest.main(argv=[sys.argv[0], f"{case.__name__}.test_{sys.argv[3]}"], exit=False).result
+def main():
+    """Run the test that is named, of whichever case of the script has it, and end as CTest wants it."""
+    method = "test_" + sys.argv[3]
+    case = next(test for test in vars(sys.modules["__main__"]).values()
+                if isinstance(test, type) and issubclass(test, ToolTest) and hasattr(test, method))
+    result = unittest.TextTestRunner(verbosity=2).run(case(method))
     for _, reason in result.skipped:
         print("SKIPPED:", reason)
     sys.exit(77 if result.skipped else not result.wasSuccessful())
