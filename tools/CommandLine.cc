@@ -234,7 +234,8 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
            "--report", line.report,
            "Write what was done and measured to this file: for programs, or for people, with a picture")
         ->type_name("FILE.json|FILE.html");
-    app.add_flag("--dry-run", line.dryRun, "Count, and say how large the file would be, but write no mesh");
+    app.add_flag("--dry-run", line.dryRun,
+                 "Write no mesh, but count it, and say how large the file would be");
     app.add_flag("-q,--quiet", line.quiet, "Print nothing but errors");
     app.add_option("--frames", line.frames,
                    "Frames of a sequence, such as 1-240, 1-240x2 or 1,5,10-20, for inputs such as "

@@ -59,9 +59,10 @@ struct Entry {
         }
         return all;
     }
-    /// The first sentence, for a line.
+    /// The first clause, for a line.
     std::string line() const {
-        return text.substr(0, std::min({text.find(". "), text.find("; "), text.find(": "), text.size()}));
+        return text.substr(
+            0, std::min({text.find(". "), text.find("; "), text.find(": "), text.find(", "), text.size()}));
     }
     /// Such as "-s, --spacing LENGTH".
     std::string synopsis() const {
@@ -198,7 +199,7 @@ std::string helpScreen(const CLI::App& app) {
         const auto entry =
             std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.longName == name; });
         if (entry == entries.end()) continue;
-        text += fmt::format("  {:<26} {}\n", entry->synopsis(), entry->line());
+        text += fmt::format("  {:<30} {}\n", entry->synopsis(), entry->line());
     }
     return text + "\n--help-all tells all options, and each in full.\n";
 }
