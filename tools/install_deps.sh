@@ -6,7 +6,7 @@
 set -eu
 
 packages="g++ cmake ninja-build libopenvdb-dev libtbb-dev libblosc-dev zlib1g-dev libhdf5-dev libboost-iostreams-dev
-    libcgal-dev libcli11-dev libfmt-dev nlohmann-json3-dev libjs-three"
+    libboost-dev libcgal-dev libcli11-dev libfmt-dev nlohmann-json3-dev libjs-three"
 for option in "$@"; do
     case $option in
     --tests) packages="$packages catch2 python3" ;;

@@ -14,8 +14,6 @@ namespace vdbtet {
 
 namespace {
 
-constexpr double kExtremeMove = 0.3; // of a short edge; Algorithm 5
-
 /// @return the direction of the short edge between two neighbours, which may be of any octahedron.
 int directionBetween(int from, int to) {
     const openvdb::Vec3d edge = homeOf(to) - homeOf(from);

@@ -55,6 +55,8 @@ struct Flips {
 /// @details No two flipped octahedra share a tet (Propositions 5 to 7), so each is chosen alone.
 Flips chooseFlips(const Vertices& vertices, int version, Interrupt& interrupt);
 
+constexpr double kExtremeMove = 0.3; ///< of a short edge; Algorithm 5
+
 /// What Algorithm 5 finds in one octahedron.
 struct ExtraFlip {
     bool matches = false;  ///< the directions and lengths of Figure 10, v1 being inside

@@ -15,9 +15,6 @@ using openvdb::Vec3d;
 
 namespace {
 
-constexpr double kMinAngle = 11.47; // degrees; the policy of Algorithm 4
-constexpr double kTieAngle = 1e-5;  // degrees; more than distances in float can turn an angle
-
 VDBTET_KERNEL inline double lesser(double a, double b) { return a < b ? a : b; }
 VDBTET_KERNEL inline double greater(double a, double b) { return a < b ? b : a; }
 VDBTET_KERNEL inline double least(const double (&six)[6]) {

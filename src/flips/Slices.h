@@ -19,6 +19,9 @@ struct SliceQuality {
 /// @return the quality of one slice of any octahedron.
 SliceQuality sliceQuality(const LocalVertices& vertices, const LocalOctahedron& octahedron, bcc::Slice slice);
 
+constexpr double kMinAngle = 11.47; ///< degrees; the policy of Algorithm 4
+constexpr double kTieAngle = 1e-5;  ///< degrees; more than distances in float can turn an angle
+
 /// The policy of Algorithm 4, made safe against inverted tets and rounding.
 bool better(const SliceQuality& a, const SliceQuality& b);
 
