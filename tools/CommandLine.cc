@@ -18,6 +18,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -81,6 +82,13 @@ void splitFiles(CommandLine& line, std::vector<std::string> files) {
     line.inputs = std::move(files);
 }
 
+/// CLI11 sees only one list of files.
+struct HelpFormatter final : CLI::Formatter {
+    std::string make_usage(const CLI::App*, std::string) const override {
+        return "\nUsage: vdb_tet [OPTIONS] IN.vdb... [OUT]\n";
+    }
+};
+
 /// What to say of arguments that CLI11 does not know.
 std::string unknown(const CLI::App& app, const std::string& argument) {
     const std::string word = argument.substr(0, argument.find('='));
@@ -101,10 +109,11 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
     const CLI::Validator positive(isPositive, "");
 
     CLI::App app("Fill an OpenVDB volume with tetrahedra of guaranteed dihedral angles.\n", "vdb_tet");
+    app.formatter(std::make_shared<HelpFormatter>());
     app.set_version_flag("--version", "vdb_tet " VDBTET_VERSION ", OpenVDB " OPENVDB_LIBRARY_VERSION_STRING);
     std::vector<std::string> files; // with one option for OUT, too, CLI11 would give all to the first
     app.add_option(
-           "IN.vdb...OUT", files,
+           "IN", files,
            "IN are .vdb files that hold volumes, or .obj, .ply or .stl files of closed surfaces. OUT is "
            "the mesh to write, and may be left out with --dry-run. In OUT and the names of other files "
            "that are written {stem} stands for the input's name, {frame} for the number in it, {grid} "

@@ -53,9 +53,10 @@ std::vector<Input> inputsOf(const CommandLine& line) {
     return inputs;
 }
 
-/// A name for a file from that of a grid.
+/// A name for a file from that of a grid: neither another folder nor hidden.
 std::string asFileName(std::string grid) {
     std::replace(grid.begin(), grid.end(), '/', '_');
+    if (!grid.empty() && grid[0] == '.') grid[0] = '_';
     return grid;
 }
 

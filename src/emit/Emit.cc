@@ -190,7 +190,7 @@ private:
     MeshSink& mSink;
     Interrupt& mInterrupt;
     const MeshWants mWants;
-    std::atomic<std::int64_t> mPassed{0}; ///< tets the sink has got
+    std::atomic<std::int64_t> mPassed{0};                     ///< tets the sink has got
     tbb::concurrent_vector<std::unique_ptr<Parcel>> mParcels; ///< all, wherever an exception leaves them
     tbb::concurrent_queue<Parcel*> mSpare;
 };

@@ -1,6 +1,6 @@
 /// @file make_fixtures.cc
-/// Writes the .vdb files that the tests of vdb_tet read into the working directory: with --sequence those of a
-/// sequence, else all others.
+/// Writes the .vdb files that the tests of vdb_tet read into the working directory: with --sequence those of
+/// a sequence, else all others.
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Composite.h>
 #include <openvdb/tools/LevelSetSphere.h>
@@ -83,7 +83,8 @@ openvdb::GridPtrVec linearFields() {
 /// Two balls that come out of each other, at a time from 0 to 1.
 openvdb::GridBase::Ptr splitting(double time) {
     const auto ball = [&](double x) {
-        return openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(0.5f, openvdb::Vec3f(float(x), 0, 0), 0.1f);
+        return openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(0.5f, openvdb::Vec3f(float(x), 0, 0),
+                                                                        0.1f);
     };
     const auto grid = ball(0.3 - 0.8 * time);
     openvdb::tools::csgUnion(*grid, *ball(0.3 + 0.8 * time));

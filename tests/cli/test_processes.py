@@ -11,7 +11,7 @@ import sys
 import time
 
 sys.path.append(os.path.join(os.path.dirname(__file__), "..", "support"))
-from tool import VDB_TET, ToolTest, is_alive, main, wait_for_child, wait_until_writing
+from tool import VDB_TET, ToolTest, children_of, is_alive, main, wait_for_child, wait_until_writing
 
 LONG = ["sphere.vdb", "o.vtu", "-v", "0.05"]  # takes far longer than a signal needs to arrive
 
@@ -101,10 +101,11 @@ class Processes(ToolTest):
         self.assertEqual(len(told), statuses.count("failed"))
 
     def test_interrupt_in_any_stage(self):
-        for stage, options in [("emit", []), ("optimize", ["--optimize", "38", "--sweeps", "1000"]),
-                               ("measure", ["--dry-run"])]:
+        for stage, options in [("emit", ["-v", "0.05"]),
+                               ("optimize", ["-v", "0.05", "--optimize", "38", "--sweeps", "1000"]),
+                               ("measure", ["-v", "0.04", "--dry-run"])]:
             with self.subTest(stage):
-                terminal = Terminal("sphere.vdb", "o.vtu", "-v", "0.04", *options)
+                terminal = Terminal("sphere.vdb", "o.vtu", "-j", "1", *options)
                 child = wait_for_child(terminal.process)
                 terminal.read(until=stage)
                 os.killpg(terminal.process.pid, signal.SIGINT)
@@ -129,7 +130,8 @@ class Processes(ToolTest):
 
     def test_interrupted_batch(self):
         process = popen("sphere.vdb", "fog.vdb", "far.vdb", "{stem}.vtu", "-v", "0.05", "--jobs", "2", "--log", "l.jsonl")
-        wait_until_writing(process)
+        while len(children_of(process)) < 2:
+            time.sleep(0.001)
         process.send_signal(signal.SIGTERM)
         out, err = process.communicate(timeout=120)
         self.assertEqual(process.returncode, 143)

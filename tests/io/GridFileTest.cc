@@ -128,3 +128,22 @@ TEST_CASE("heads of grids tell what they are, and no tree is read") {
     for (const auto& head : heads) CHECK(readGrid(path, head.name)->type() == head.type);
     CHECK_THROWS_AS(readHeads(folder.file("missing.vdb")), FileError);
 }
+
+TEST_CASE("scalar grids are listed by the names that find them") {
+    const TempFolder folder;
+    const std::string path = folder.file("grids.vdb");
+    const auto named = [](const std::string& name) {
+        const auto grid = ball();
+        grid->setName(name);
+        return grid;
+    };
+    const auto vectors = openvdb::Vec3SGrid::create();
+    vectors->setName("vel");
+    write(path, {named("b"), vectors, named("a"), named("b"), named(""), openvdb::DoubleGrid::create()});
+    const std::vector<std::string> names = scalarGrids(path);
+    CHECK(names == std::vector<std::string>{"b[0]", "a", "b[1]", "[0]", "[1]"});
+    for (const std::string& name : names) CHECK(readGrid(path, name));
+    write(path, {vectors});
+    CHECK_THROWS_AS(scalarGrids(path), UnsupportedGrid);
+    CHECK_THROWS_AS(scalarGrids(folder.file("absent.vdb")), FileError);
+}

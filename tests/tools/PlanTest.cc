@@ -62,13 +62,13 @@ TEST_CASE("all grids of a file are jobs, and a file that cannot be listed is one
     line.allGrids = true;
     const auto jobs = planJobs(line, [](const std::string& path) -> Names {
         if (path == "bad.vdb") throw std::runtime_error("it is damaged");
-        return {"density", "a/b"};
+        return {"density", "../b"};
     });
     REQUIRE(jobs.size() == 3);
     CHECK(jobs[0].line.name == "density");
     CHECK(jobs[0].line.out == "a_density.vtu");
-    CHECK(jobs[1].line.name == "a/b");
-    CHECK(jobs[1].line.out == "a_a_b.vtu"); // a name is no folder
+    CHECK(jobs[1].line.name == "../b");
+    CHECK(jobs[1].line.out == "a__._b.vtu"); // a name is no folder
     CHECK(jobs[2].error == "it is damaged");
     CHECK(jobs[2].line.in == "bad.vdb");
 }
