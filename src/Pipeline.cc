@@ -6,8 +6,9 @@
 #include "cuts/Arrows.h"
 #include "destinations/Destinations.h"
 #include "emit/Emit.h"
-#include "flips/Flips.h"
+#include "flips/QualityFlips.h"
 #include "grading/Grading.h"
+#include "guard/Guard.h"
 #include "labels/Labels.h"
 #include "numbering/Numbering.h"
 #include "optimize/Optimize.h"
@@ -84,8 +85,10 @@ bool mesh(const Field& field, const Frame& frame, const Options& options, int ma
     auto tiles =
         stage("tiles", [&] { return field.surfaceTiles(options.maxSurfaceTiles, margin, interrupt); });
     if (report.cancelled) return true;
+    const bool isThird = options.tiger == 3;
+    const double tau = isThird ? options.tau.value_or(kDefaultTau) : 0.5;
     std::optional<Cuts> cuts =
-        stage("cuts", [&] { return std::make_optional(findCuts(field, tiles, interrupt)); });
+        stage("cuts", [&] { return std::make_optional(findCuts(field, tiles, tau, interrupt)); });
     if (report.cancelled) return true;
     const std::vector<TileSigns> signs = std::move(cuts->signs);
     const Layout layout = stage("layout", [&] { return makeLayout(std::move(tiles), signs, interrupt); });
@@ -94,20 +97,42 @@ bool mesh(const Field& field, const Frame& frame, const Options& options, int ma
     report.cutEdges = cuts->arrows.cutEdges;
     if (report.cutEdges == 0)
         throw NoSurface("the shape slips between the lattice points; use a finer spacing");
-    const Labels labels = stage("labels", [&] { return labelVertices(layout, cuts->arrows, interrupt); });
+    Labels labels = stage("labels", [&] { return labelVertices(layout, cuts->arrows, interrupt); });
+    if (report.cancelled) return true;
+    Destinations destinations = stage("destinations", [&] {
+        return isThird ? findGradientDestinations(field, layout, cuts->arrows, labels, {tau, nullptr},
+                                                  nullptr, nullptr, interrupt)
+                       : findDestinations(field, layout, cuts->arrows, labels, interrupt);
+    });
+    if (report.cancelled) return true;
+    if (!isThird) cuts.reset(); // the largest product, and no one but the guard reads it again
+
+    Vertices vertices{layout, signs, labels, destinations};
+    std::optional<QualityFlips> quality;
+    Flips flips = stage("flips", [&] {
+        if (!isThird) return chooseFlips(vertices, options.tiger, interrupt);
+        quality.emplace(vertices);
+        quality->chooseAll(interrupt);
+        return Flips();
+    });
+    if (report.cancelled) return true;
+    if (isThird) {
+        const Guarded guarded = stage("guard", [&] {
+            return guardAngles(field, tau, vertices, {cuts->arrows, labels, destinations, *quality},
+                               interrupt);
+        });
+        report.flagged = guarded.count;
+        report.guardRounds = guarded.rounds;
+        flips = quality->flips();
+        quality.reset();
+        cuts.reset();
+    }
     if (report.cancelled) return true;
     report.backLabelled = labels.backLabelled;
     report.tieBroken = labels.tieBroken;
     report.worklistSeconds = labels.worklistSeconds;
-    const Destinations destinations = stage(
-        "destinations", [&] { return findDestinations(field, layout, cuts->arrows, labels, interrupt); });
-    if (report.cancelled) return true;
-    cuts.reset(); // the largest product, and no one reads it again
-
-    Vertices vertices{layout, signs, labels, destinations};
-    const Flips flips = stage("flips", [&] { return chooseFlips(vertices, options.tiger, interrupt); });
-    if (report.cancelled) return true;
     report.activeFlips = flips.active;
+    report.qualityFlips = flips.quality;
     report.extraFlips = flips.extra;
     report.lastResortFlips = flips.lastResort;
     report.conflicts = flips.conflicts;
@@ -154,8 +179,9 @@ bool mesh(const Field& field, const Frame& frame, const Options& options, int ma
         throw NoSurface(
             "the shape is thinner than the lattice can hold, and nothing of it is left; use a finer spacing");
     }
-    // Theorem 3; where Algorithm 5 met no conflict the resolution sufficed.
-    const bool resolved = options.tiger >= 2 && flips.conflicts == 0;
+    // Theorem 3; where Algorithm 5 met no conflict the resolution sufficed. Version 3 has no better bound
+    // that holds whatever the surface.
+    const bool resolved = options.tiger == 2 && flips.conflicts == 0;
     report.angleMin = resolved ? 11.47 : 8.54;
     report.angleMax = resolved ? 157.59 : 164.18;
 

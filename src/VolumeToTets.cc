@@ -20,7 +20,11 @@ namespace {
 constexpr std::int64_t kMostSurfaceTiles = std::int64_t(1) << 30;
 
 void checkOptions(const Options& options) {
-    if (options.tiger != 1 && options.tiger != 2) throw BadOption("the TIGER version must be 1 or 2");
+    if (options.tiger < 1 || options.tiger > 3) throw BadOption("the TIGER version must be 1, 2 or 3");
+    if (options.tau && options.tiger != 3)
+        throw BadOption("a threshold tau is given, which only version 3 of the method has");
+    if (options.tau && !(*options.tau >= 0.5 && *options.tau <= 0.8))
+        throw BadOption("the threshold tau must be from 0.5 to 0.8");
     if (options.isovalue && !std::isfinite(*options.isovalue))
         throw BadOption("the isovalue must be a finite number");
     if (options.maxSize && !options.grade)

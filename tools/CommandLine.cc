@@ -168,10 +168,18 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
         ->check(positive)
         ->type_name("LENGTH")
         ->needs(grade);
-    app.add_option("--tiger", options.tiger,
-                   "Version of the method, 1 or 2. Default: 2, with the better angles")
-        ->check(CLI::IsMember({1, 2}).description(""))
-        ->type_name("1|2");
+    app.add_option(
+           "--tiger", options.tiger,
+           "Version of the method; 2 has better angles than 1, and 3 than 2 where the lattice resolves "
+           "the shape. Default: 2")
+        ->check(CLI::IsMember({1, 2, 3}).description(""))
+        ->type_name("1|2|3");
+    app.add_option("--tau", options.tau,
+                   fmt::format("With --tiger 3: points inside move outwards where the surface is nearer than "
+                               "this share of a short edge. Default: {}",
+                               vdbtet::kDefaultTau))
+        ->check(CLI::Range(0.5, 0.8).description(""))
+        ->type_name("SHARE");
     auto* optimize = app.add_option("--optimize", options.optimize,
                                     "Move points until no dihedral angle is less than TARGET degrees, or no "
                                     "move helps; 30 where it is left out, at most 38. Default: do not")

@@ -62,8 +62,13 @@ std::string asText(const CommandLine& line, const Summary& summary) {
                         r.boundary.found, r.boundary.filled, r.boundary.peeled, r.boundary.split,
                         r.boundary.left > 0 ? fmt::format("; {} left", r.boundary.left) : ""));
     }
-    add("flips", fmt::format("{} active, {} extra, {} last resort; {} conflicts", r.activeFlips, r.extraFlips,
-                             r.lastResortFlips, r.conflicts));
+    if (r.tiger == 3) {
+        add("flips", fmt::format("{} active, {} for quality", r.activeFlips, r.qualityFlips));
+        add("guard", fmt::format("{} points flagged in {} rounds", r.flagged, r.guardRounds));
+    } else {
+        add("flips", fmt::format("{} active, {} extra, {} last resort; {} conflicts", r.activeFlips,
+                                 r.extraFlips, r.lastResortFlips, r.conflicts));
+    }
     std::string stages;
     for (const auto& stage : r.stages) stages += fmt::format("{} {:.3f}, ", stage.name, stage.seconds);
     add("seconds", fmt::format("{}total {:.3f}", stages, summary.seconds));
@@ -115,6 +120,9 @@ std::string asJson(const CommandLine& line, const Summary& summary) {
         {"activeFlips", r.activeFlips},
         {"extraFlips", r.extraFlips},
         {"lastResortFlips", r.lastResortFlips},
+        {"qualityFlips", r.qualityFlips},
+        {"flagged", r.flagged},
+        {"guardRounds", r.guardRounds},
         {"surfaceTiles", r.surfaceTiles},
         {"cutEdges", r.cutEdges},
         {"backLabelled", r.backLabelled},

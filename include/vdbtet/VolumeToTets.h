@@ -33,6 +33,9 @@ enum class Boundary {
     Raw       ///< nothing
 };
 
+/// What Options::tau is unless given.
+constexpr double kDefaultTau = 0.7;
+
 struct Options {
     /// The surface is where the grid equals this. Default: 0 for a level set, 0.5 for a fog volume; for any
     /// other class 0 if the background is positive, else 0.5.
@@ -44,8 +47,14 @@ struct Options {
     /// Lattice spacing in units of the shortest edge of a voxel; ignored where spacing is given.
     double voxels = 1.0;
 
-    /// TIGER version: 2 flips the worst-case octahedra (paper, section 6), 1 does not.
+    /// Version of the method. 1 and 2 are TIGER's: 2 flips the worst-case octahedra (paper, section 6), 1
+    /// does not. 3 moves points along the gradient of the field instead of along edges, flips what that makes
+    /// better, and takes the rule of version 2 where it leaves a bad angle all the same.
     int tiger = 2;
+    /// With version 3: points inside move outwards where the surface is nearer than this share of a short
+    /// edge, from 0.5 to 0.8. A larger one has the better angles, a smaller one keeps more of thin parts.
+    /// Default: kDefaultTau.
+    std::optional<double> tau;
 
     /// Nothing changes where the boundary is a surface anyway.
     Boundary boundary = Boundary::Manifold;
@@ -112,6 +121,9 @@ struct Report {
     std::int64_t activeFlips = 0; ///< long edges flipped by Algorithm 4
     std::int64_t extraFlips = 0;  ///< long edges flipped by Algorithm 5
     std::int64_t lastResortFlips = 0; ///< conflicts flipped all the same (section 6.2.2)
+    std::int64_t qualityFlips = 0;    ///< long edges flipped by version 3 for the better angles
+    std::int64_t flagged = 0;         ///< vertices that version 3 took the rule of version 2 for
+    int guardRounds = 0;              ///< of version 3 in which it did so
     std::int64_t surfaceTiles = 0;    ///< tiles that held any per-vertex state
     std::int64_t cutEdges = 0;        ///< short edges with a cut point
     std::int64_t backLabelled = 0;    ///< vertices that the serial worklist settled

@@ -49,7 +49,9 @@ class TileCutter {
 public:
     explicit TileCutter(std::unique_ptr<Field::Sampler> sampler) : mSampler(std::move(sampler)) {}
 
-    TileCuts cut(const openvdb::Coord& tile) {
+    /// @param flagged  in and around the tile, by lattice
+    TileCuts cut(const openvdb::Coord& tile, double tau,
+                 const std::array<PaddedMask, 2>& flagged = std::array<PaddedMask, 2>()) {
         TileCuts cuts;
         PaddedMask a, b;
         mSampler->signs(tile, a, b);
@@ -66,10 +68,16 @@ public:
 
         mEdges.resize(count);
         ShortEdge* edge = mEdges.data();
-        for (int d = 0; d < bcc::kDirections; ++d)
-            cut[d].forEach([&](int n) { *edge++ = {std::uint16_t(n), std::uint16_t(d)}; });
+        for (int d = 0; d < bcc::kDirections; ++d) {
+            const bcc::Step step = bcc::shortEdge(bcc::A, d);
+            const int toB = PaddedMask::step(step.x, step.y, step.z);
+            cut[d].forEach([&](int n) {
+                *edge++ = {std::uint16_t(n), std::uint8_t(d),
+                           flagged[bcc::A].test(n) || flagged[bcc::B].test(n + toB)};
+            });
+        }
         mNearer.resize(count);
-        mSampler->nearerToA(tile, mEdges, mNearer.data());
+        mSampler->nearerToA(tile, mEdges, tau, mNearer.data());
         for (std::size_t i = 0; i < mEdges.size(); ++i)
             nearer[mEdges[i].direction].set(mEdges[i].vertex, mNearer[i]);
         auto arrows = std::make_unique<TileArrows>();
@@ -100,7 +108,8 @@ VertexRef farEnd(const Neighbours& neighbours, const VertexRef& v, int direction
     return {tile, bcc::other(v.lattice), TileMask::bit(x & 7, y & 7, z & 7)};
 }
 
-Cuts findCuts(const Field& field, const std::vector<openvdb::Coord>& tiles, Interrupt& interrupt) {
+Cuts findCuts(const Field& field, const std::vector<openvdb::Coord>& tiles, double tau,
+              Interrupt& interrupt) {
     Cuts cuts;
     cuts.signs.resize(tiles.size());
     cuts.arrows.of.resize(tiles.size());
@@ -111,7 +120,7 @@ Cuts findCuts(const Field& field, const std::vector<openvdb::Coord>& tiles, Inte
         TileCutter& cutter = cutters.local();
         std::int64_t sum = 0;
         for (std::int64_t t = begin; t < end; ++t) {
-            TileCuts tile = cutter.cut(tiles[t]);
+            TileCuts tile = cutter.cut(tiles[t], tau);
             cuts.signs[t] = tile.signs;
             cuts.arrows.of[t] = std::move(tile.arrows);
             sum += tile.cutEdges;
@@ -123,6 +132,22 @@ Cuts findCuts(const Field& field, const std::vector<openvdb::Coord>& tiles, Inte
         if (cuts.arrows.of[t]) cuts.arrows.tiles.push_back(TileRef(t));
     }
     return cuts;
+}
+
+void turnArrows(const Field& field, const Layout& layout, const Threshold& threshold,
+                const std::vector<TileRef>& tiles, Arrows& arrows, Interrupt& interrupt) {
+    tbb::enumerable_thread_specific<TileCutter> cutters([&] { return TileCutter(field.sampler()); });
+    parallelRanges(std::int64_t(tiles.size()), interrupt, [&](std::int64_t begin, std::int64_t end) {
+        TileCutter& cutter = cutters.local();
+        for (std::int64_t i = begin; i < end; ++i) {
+            const TileRef t = tiles[i];
+            if (!arrows.of[t]) continue;
+            const Surroundings around(layout.neighbours[t]);
+            const std::array<PaddedMask, 2> flagged{PaddedMask(around.masks(*threshold.flagged, bcc::A)),
+                                                    PaddedMask(around.masks(*threshold.flagged, bcc::B))};
+            arrows.of[t] = cutter.cut(layout.surfaceTiles[t], threshold.tau, flagged).arrows;
+        }
+    });
 }
 
 } // namespace vdbtet

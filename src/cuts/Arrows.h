@@ -28,6 +28,14 @@ VertexRef farEnd(const Neighbours& neighbours, const VertexRef& v, int direction
 /// The vertices of a tile that an arrow leaves, by lattice and direction.
 using TileArrows = std::array<EdgeMasks, 2>;
 
+/// @brief Up to which fraction of a cut short edge, from the end inside, that end is the nearer one.
+/// @details 1/2 in versions 1 and 2. Version 3 moves vertices outwards rather than inwards, but for those
+/// that are flagged: at their edges it is 1/2, too.
+struct Threshold {
+    double tau = 0.5;
+    const VertexMasks* flagged = nullptr; ///< null for none
+};
+
 /// @brief The arrows of all cut short edges; on a tie an arrow leaves the L_A end.
 /// @details Labelling needs to know of a cut point only in which half of its edge it lies. Where exactly
 /// matters to the one manifold vertex that may move there, so it is left to that vertex (see Destinations).
@@ -44,7 +52,12 @@ struct Cuts {
 };
 
 /// @brief Find the signs and the arrows of @a tiles.
+/// @param tau  of the threshold; no vertex is flagged
 /// @details A tile's edges that end in its neighbours are decided by both: the same values, so the same bits.
-Cuts findCuts(const Field& field, const std::vector<openvdb::Coord>& tiles, Interrupt& interrupt);
+Cuts findCuts(const Field& field, const std::vector<openvdb::Coord>& tiles, double tau, Interrupt& interrupt);
+
+/// Find the arrows of some of the tiles again.
+void turnArrows(const Field& field, const Layout& layout, const Threshold& threshold,
+                const std::vector<TileRef>& tiles, Arrows& arrows, Interrupt& interrupt);
 
 } // namespace vdbtet

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "bits/TileMask.h"
-#include "tiles/Spans.h"
+#include "tiles/Layout.h"
 
 #include <array>
 #include <cstdint>
@@ -57,9 +57,6 @@ struct TileChanges {
     std::vector<TetCopy> tetCopies;   ///< of own tets; ascending
     std::vector<FaceCopy> faceCopies; ///< of own boundary faces; ascending
 };
-
-/// Vertices of each surface tile, by lattice.
-using VertexMasks = std::vector<std::array<TileMask, 2>>;
 
 struct Changes {
     std::vector<std::int32_t> numbers; ///< of each surface tile: where its changes are, or -1

@@ -1,5 +1,5 @@
 /// @file Destinations.cc
-/// The nearest cut point of each manifold vertex (paper, equation (6)).
+/// The nearest cut point of each manifold vertex (paper, equation (6)), and the way along the gradient.
 #include "destinations/Destinations.h"
 
 #include "bits/PaddedMask.h"
@@ -7,6 +7,7 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace vdbtet {
 
@@ -20,20 +21,26 @@ class Nearest {
 public:
     explicit Nearest(std::unique_ptr<Field::Sampler> sampler) : mSampler(std::move(sampler)) {}
 
-    void find(const openvdb::Coord& tile, bcc::Lattice lattice, const EdgeMasks& edges) {
+    /// @param flagged  in and around the tile, by lattice
+    void find(const openvdb::Coord& tile, bcc::Lattice lattice, const EdgeMasks& edges, double tau,
+              const std::array<PaddedMask, 2>& flagged = std::array<PaddedMask, 2>()) {
         std::size_t count = 0;
         for (const TileMask& mask : edges) count += std::size_t(mask.count());
         mEdges.resize(count);
         mCuts.resize(count);
         ShortEdge* edge = mEdges.data();
         for (int d = 0; d < bcc::kDirections; ++d) {
+            const bcc::Step step = bcc::shortEdge(lattice, d);
+            const int toEnd = PaddedMask::step(step.x, step.y, step.z);
             edges[d].forEach([&](int n) {
                 const int vertex = PaddedMask::bit(n);
-                *edge++ = {std::uint16_t(vertex), std::uint16_t(d)};
+                const bool halved =
+                    flagged[lattice].test(vertex) || flagged[bcc::other(lattice)].test(vertex + toEnd);
+                *edge++ = {std::uint16_t(vertex), std::uint8_t(d), halved};
                 mDistance[vertex] = 2.0f;
             });
         }
-        mSampler->cutPoints(tile, lattice, mEdges, mCuts.data());
+        mSampler->cutPoints(tile, lattice, mEdges, tau, mCuts.data());
         for (std::size_t i = 0; i < mEdges.size(); ++i) {
             float& distance = mDistance[mEdges[i].vertex];
             distance = std::min(distance, mCuts[i]);
@@ -49,9 +56,38 @@ public:
     struct Choice {
         float distance;
         std::uint32_t direction;
+
+        openvdb::Vec3d offset() const {
+            return double(distance) * openvdb::Vec3d(bcc::kShortEdges[direction]);
+        }
     };
     /// Of a vertex with edges.
     const Choice& choice(int vertex) const { return mChoice[PaddedMask::bit(vertex)]; }
+
+    /// Find the destinations of the manifold vertices after find(), where they are not flagged along the
+    /// gradient.
+    /// @param offsets  receives them in the order of their bits
+    void turnToGradient(const openvdb::Coord& tile, bcc::Lattice lattice, const TileMask& manifold,
+                        const PaddedMask& flagged, openvdb::Vec3f* offsets) {
+        const double kShortEdge = std::sqrt(0.75);
+        mFree.clear();
+        mReach.clear();
+        manifold.forEach([&](int n) {
+            const int vertex = PaddedMask::bit(n);
+            if (flagged.test(vertex)) return;
+            mFree.push_back(std::uint16_t(vertex));
+            mReach.push_back(double(choice(n).distance) * kShortEdge);
+        });
+        mWays.resize(mFree.size());
+        mSampler->alongGradient(tile, lattice, mFree, mReach, mWays.data());
+        std::size_t next = 0;
+        manifold.forEach([&](int n) {
+            const bool isFree = next < mFree.size() && mFree[next] == PaddedMask::bit(n);
+            const bool met = isFree && mWays[next] != openvdb::Vec3d(0.0);
+            *offsets++ = openvdb::Vec3f(met ? mWays[next] : choice(n).offset());
+            next += isFree;
+        });
+    }
 
 private:
     std::unique_ptr<Field::Sampler> mSampler;
@@ -59,11 +95,28 @@ private:
     std::vector<float> mCuts;                         ///< of mEdges
     std::array<float, PaddedMask::kSize> mDistance{}; ///< of vertices with edges, as the next
     std::array<Choice, PaddedMask::kSize> mChoice{};
+
+    std::vector<std::uint16_t> mFree; ///< the vertices that are not flagged
+    std::vector<double> mReach;       ///< of mFree, as the next
+    std::vector<openvdb::Vec3d> mWays;
 };
+
+/// @return the edges from the manifold vertices of a tile and lattice to vertices that are not.
+EdgeMasks edgesToKernel(const Surroundings& around, const Arrows& arrows, const Labels& labels, TileRef tile,
+                        bcc::Lattice lattice) {
+    const PaddedMask far(around.masks(labels.manifold, bcc::other(lattice)));
+    EdgeMasks edges;
+    for (int d = 0; d < bcc::kDirections; ++d) {
+        const bcc::Step step = bcc::shortEdge(lattice, d);
+        edges[d] = (*arrows.of[tile])[lattice][d] & labels.manifold[tile][lattice] &
+                   ~far.shifted(step.x, step.y, step.z);
+    }
+    return edges;
+}
 
 } // namespace
 
-void Destinations::numberMoves(const std::vector<std::array<TileMask, 2>>& manifold) {
+std::int64_t Destinations::number(const VertexMasks& manifold) {
     first.resize(manifold.size() + 1);
     before.resize(manifold.size());
     std::int64_t sum = 0;
@@ -79,14 +132,15 @@ void Destinations::numberMoves(const std::vector<std::array<TileMask, 2>>& manif
         }
     }
     first[manifold.size()] = {sum, sum};
-    distances.resize(sum);
-    directions.resize(sum);
+    return sum;
 }
 
 Destinations findDestinations(const Field& field, const Layout& layout, const Arrows& arrows,
                               const Labels& labels, Interrupt& interrupt) {
     Destinations destinations;
-    destinations.numberMoves(labels.manifold);
+    const std::int64_t moves = destinations.number(labels.manifold);
+    destinations.distances.resize(moves);
+    destinations.directions.resize(moves);
     const auto& cutTiles = arrows.tiles; // no other holds a manifold vertex
     tbb::enumerable_thread_specific<Nearest> parts([&] { return Nearest(field.sampler()); });
     interrupt.expectLoops(1);
@@ -98,20 +152,56 @@ Destinations findDestinations(const Field& field, const Layout& layout, const Ar
             for (bcc::Lattice lattice : {bcc::A, bcc::B}) {
                 const TileMask& manifold = labels.manifold[t][lattice];
                 if (!manifold.any()) continue;
-                const PaddedMask far(around.masks(labels.manifold, bcc::other(lattice)));
-                const EdgeMasks& leaving = (*arrows.of[t])[lattice];
-                EdgeMasks edges;
-                for (int d = 0; d < bcc::kDirections; ++d) {
-                    const bcc::Step step = bcc::shortEdge(lattice, d);
-                    edges[d] = leaving[d] & manifold & ~far.shifted(step.x, step.y, step.z);
-                }
-                nearest.find(layout.surfaceTiles[t], lattice, edges);
+                const EdgeMasks edges = edgesToKernel(around, arrows, labels, t, lattice);
+                nearest.find(layout.surfaceTiles[t], lattice, edges, 0.5);
                 std::int64_t move = destinations.first[t][lattice];
                 manifold.forEach([&](int vertex) {
                     destinations.distances[move] = nearest.choice(vertex).distance;
                     destinations.directions[move] = std::uint8_t(nearest.choice(vertex).direction);
                     ++move;
                 });
+            }
+        }
+    });
+    return destinations;
+}
+
+Destinations findGradientDestinations(const Field& field, const Layout& layout, const Arrows& arrows,
+                                      const Labels& labels, const Threshold& threshold,
+                                      const std::vector<TileRef>* redo, const Destinations* before,
+                                      Interrupt& interrupt) {
+    Destinations destinations;
+    destinations.offsets.resize(destinations.number(labels.manifold));
+    if (before) {
+        std::vector<bool> isRedone(layout.surfaceTiles.size());
+        for (const TileRef t : *redo) isRedone[t] = true;
+        for (std::size_t t = 0; t < isRedone.size(); ++t) {
+            if (isRedone[t]) continue;
+            std::copy(before->offsets.begin() + before->first[t][bcc::A],
+                      before->offsets.begin() + before->first[t + 1][bcc::A],
+                      destinations.offsets.begin() + destinations.first[t][bcc::A]);
+        }
+    }
+    const std::vector<TileRef>& tiles = redo ? *redo : arrows.tiles;
+    tbb::enumerable_thread_specific<Nearest> parts([&] { return Nearest(field.sampler()); });
+    parallelRanges(std::int64_t(tiles.size()), interrupt, [&](std::int64_t begin, std::int64_t end) {
+        Nearest& nearest = parts.local();
+        for (std::int64_t i = begin; i < end; ++i) {
+            const TileRef t = tiles[i];
+            if (!destinations.any(t)) continue;
+            const Surroundings around(layout.neighbours[t]);
+            std::array<PaddedMask, 2> flagged;
+            if (threshold.flagged) {
+                for (const bcc::Lattice lattice : {bcc::A, bcc::B})
+                    flagged[lattice] = PaddedMask(around.masks(*threshold.flagged, lattice));
+            }
+            for (bcc::Lattice lattice : {bcc::A, bcc::B}) {
+                const TileMask& manifold = labels.manifold[t][lattice];
+                if (!manifold.any()) continue;
+                nearest.find(layout.surfaceTiles[t], lattice,
+                             edgesToKernel(around, arrows, labels, t, lattice), threshold.tau, flagged);
+                nearest.turnToGradient(layout.surfaceTiles[t], lattice, manifold, flagged[lattice],
+                                       destinations.offsets.data() + destinations.first[t][lattice]);
             }
         }
     });

@@ -27,6 +27,28 @@ const TileMask& borderOf(int slot) {
     return kBorders[slot];
 }
 
+std::vector<TileRef> tilesNear(const Layout& layout, const VertexMasks& vertices, Interrupt& interrupt) {
+    const std::int64_t count = layout.surfaceCount();
+    std::vector<char> any(count), near(count);
+    parallelRanges(count, interrupt, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t t = begin; t < end; ++t) any[t] = vertices[t][0].any() || vertices[t][1].any();
+    });
+    parallelRanges(count, interrupt, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t t = begin; t < end; ++t) {
+            for (int slot = 0; slot < 27 && !near[t]; ++slot) {
+                const TileRef from = layout.neighbours[t][slot];
+                near[t] = from >= 0 && any[from] &&
+                          ((vertices[from][0] | vertices[from][1]) & borderOf(slot)).any();
+            }
+        }
+    });
+    std::vector<TileRef> tiles;
+    for (std::int64_t t = 0; t < count; ++t) {
+        if (near[t]) tiles.push_back(TileRef(t));
+    }
+    return tiles;
+}
+
 void LocalStates::load(const Vertices& vertices, TileRef tile) {
     if (tile == kInside) {
         mManifold.fill(PaddedMask());

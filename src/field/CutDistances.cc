@@ -17,8 +17,8 @@ constexpr int kLanes = CutEdges::kLanes;
 /// The diagonals of all lanes.
 struct Lanes {
     double b0[kLanes], b1[kLanes], b2[kLanes], b3[kLanes];
-    double start = 0.0,
-           slope = 0.0; ///< the diagonal's parameter is start + slope * (fraction of the near half)
+    double start = 0.0, slope[kLanes]; ///< the diagonal's parameter is start + slope * (fraction of the
+                                       ///< near part)
 
     VDBTET_KERNEL inline explicit Lanes(const CutEdges& edges) {
         for (int i = 0; i < kLanes; ++i) {
@@ -33,10 +33,10 @@ struct Lanes {
         }
     }
     VDBTET_KERNEL inline Diagonal diagonal(int i) const { return {b0[i], b1[i], b2[i], b3[i]}; }
-    VDBTET_KERNEL inline double evaluate(int i, double x) const { return diagonal(i)(start + slope * x); }
+    VDBTET_KERNEL inline double evaluate(int i, double x) const { return diagonal(i)(start + slope[i] * x); }
 };
 
-/// What rootInUnitInterval() knows of each edge, the interval being the half at the near end. Short loops
+/// What rootInUnitInterval() knows of each edge, the interval being the part at the near end. Short loops
 /// over all lanes: a processor looks ahead over a few of their rounds only.
 class Brackets {
 public:
@@ -51,7 +51,7 @@ public:
             mFb[i] = side * lanes.evaluate(i, 1.0);
         }
         for (int i = 0; i < kLanes; ++i) {
-            // By the rule for ties the cut point may lie just beyond the middle.
+            // By the rule for ties the cut point may lie just beyond.
             const double root = mFb[i] >= 0.0 ? 1.0 : 0.0;
             mActive[i] = (mFb[i] < 0.0) & (mFa[i] != 0.0) & (i < count) ? 1 : 0;
             mX[i] = mActive[i] != 0 ? 2.0 : root;
@@ -115,14 +115,15 @@ private:
 
 } // namespace
 
-std::uint32_t cutsInFirstHalf(const CutEdges& edges, Isa isa) {
+std::uint32_t cutsInFirstPart(const CutEdges& edges, Isa isa) {
     std::uint32_t result = 0;
     runOn(isa, [&]() VDBTET_KERNEL {
         const Lanes lanes(edges);
         std::int64_t first[kLanes];
         for (int i = 0; i < kLanes; ++i) {
             const Diagonal phi = lanes.diagonal(i);
-            const double near = phi.b0, middle = phi(0.5), far = phi(1.0);
+            const double near = phi.b0, far = phi(1.0);
+            const double middle = phi(near >= 0.0 ? edges.tau[i] : 1.0 - edges.tau[i]);
             const std::int64_t tie = std::abs(middle) <= kMiddle * std::abs(far - near) ? 1 : 0,
                                nearInside = near >= 0.0 ? 1 : 0, middleInside = middle >= 0.0 ? 1 : 0;
             first[i] = tie | (nearInside ^ middleInside);
@@ -136,10 +137,13 @@ void distancesToCuts(const CutEdges& edges, bool nearIsB, float* distance, Isa i
     runOn(isa, [&]() VDBTET_KERNEL {
         Lanes lanes(edges);
         lanes.start = nearIsB ? 1.0 : 0.0;
-        lanes.slope = nearIsB ? -0.5 : 0.5;
-        double root[kLanes];
+        double reach[kLanes], root[kLanes];
+        for (int i = 0; i < kLanes; ++i) {
+            reach[i] = edges.near[i] >= 0.0 ? edges.tau[i] : 1.0 - edges.tau[i];
+            lanes.slope[i] = nearIsB ? -reach[i] : reach[i];
+        }
         Brackets(lanes, edges.near, edges.count).solve(lanes, root);
-        for (int i = 0; i < edges.count; ++i) distance[i] = float(0.5 * root[i]);
+        for (int i = 0; i < edges.count; ++i) distance[i] = float(reach[i] * root[i]);
     });
 }
 

@@ -17,12 +17,13 @@ struct CutEdges {
     int count = 0;
     double corners[8][kLanes] = {};
     double near[kLanes] = {}; ///< the field at the end that the cut point is nearer to
+    double tau[kLanes] = {};  ///< the end inside is the nearer one up to this fraction of the edge
 
     bool full() const { return count == kLanes; }
 };
 
-/// @return the edges, by bit, of which cutInFirstHalf() is true, the first end being that of L_A.
-std::uint32_t cutsInFirstHalf(const CutEdges& edges, Isa isa);
+/// @return the edges, by bit, of which cutInFirstPart() is true, the first end being that of L_A.
+std::uint32_t cutsInFirstPart(const CutEdges& edges, Isa isa);
 
 /// @brief distanceToCut() of the edges.
 /// @param nearIsB   whether the near ends are those of L_B

@@ -28,7 +28,8 @@ using EdgeMasks = std::array<TileMask, bcc::kDirections>;
 /// A short edge from a vertex of some lattice in or around a tile.
 struct ShortEdge {
     std::uint16_t vertex; ///< its PaddedMask::bit()
-    std::uint16_t direction;
+    std::uint8_t direction;
+    bool halved = false; ///< its threshold is the middle, whatever that of others is
 };
 
 /// The field at some point.
@@ -66,18 +67,29 @@ public:
 
         /// @brief Decide which ends of cut short edges are the nearer ones to their cut points.
         /// @param edges   from L_A vertices at 0 to 8 to L_B vertices at -1 to 7 of the other sign
-        /// @param nearer  receives for each edge 1 if the cut point is nearer to the L_A end, or as near;
-        /// else 0
-        virtual void nearerToA(const openvdb::Coord& tile, const std::vector<ShortEdge>& edges,
+        /// @param tau     the end inside is the nearer one up to this fraction of an edge; 1/2 of halved ones
+        /// @param nearer  receives for each edge 1 if the L_A end is the nearer one, also on a tie; else 0
+        virtual void nearerToA(const openvdb::Coord& tile, const std::vector<ShortEdge>& edges, double tau,
                                std::uint8_t* nearer) = 0;
 
         /// @brief Find cut points from their nearer ends.
         /// @param lattice   that of the nearer ends
         /// @param edges     from the tile's own vertices
+        /// @param tau       as above
         /// @param distance  receives for each edge the distance of its cut point as a fraction of the edge,
-        /// in [0, 1/2]
+        /// in [0, tau] from an end inside, in [0, 1 - tau] from one outside
         virtual void cutPoints(const openvdb::Coord& tile, bcc::Lattice lattice,
-                               const std::vector<ShortEdge>& edges, float* distance) = 0;
+                               const std::vector<ShortEdge>& edges, double tau, float* distance) = 0;
+
+        /// @brief Find where vertices come to the surface along the gradient of the field.
+        /// @param vertices  of the tile, by PaddedMask::bit()
+        /// @param reach     of each, how far to look, lattice units
+        /// @param offsets   receives for each vertex the way to the surface, lattice units; zero where the
+        /// field does not change its sign within reach
+        /// @details The gradient is estimated from the vertex's eight neighbours along short edges.
+        virtual void alongGradient(const openvdb::Coord& tile, bcc::Lattice lattice,
+                                   const std::vector<std::uint16_t>& vertices,
+                                   const std::vector<double>& reach, openvdb::Vec3d* offsets) = 0;
     };
 
     virtual std::unique_ptr<Sampler> sampler() const = 0;

@@ -37,25 +37,30 @@ double rootInUnitInterval(double f0, double f1, Function&& f) {
     return 0.5 * (a + b);
 }
 
-/// Nearer to the middle of an edge than about this fraction of it, a cut point counts as in the middle:
-/// rounding must not decide a tie.
+/// Nearer to the middle of an edge, or another threshold on it, than about this fraction of it, a cut point
+/// counts as there: rounding must not decide a tie.
 constexpr double kMiddle = 1e-7;
 
-/// @return whether the cut point of an edge lies in its first half, or in the middle; all values of the field
-/// at: the first end, the middle, the other end.
-inline bool cutInFirstHalf(double first, double middle, double second) {
+/// @return how far from an end of an edge its cut point may be for that end to be the nearer one, as a
+/// fraction of the edge.
+/// @param end  the field there; @a tau holds for an end inside
+constexpr double reachOf(double end, double tau) { return end >= 0.0 ? tau : 1.0 - tau; }
+
+/// @return whether the cut point of an edge lies in its first part, or where that ends; all values of the
+/// field at: the first end, the end of that part, the other end.
+inline bool cutInFirstPart(double first, double middle, double second) {
     if (std::abs(middle) <= kMiddle * std::abs(second - first)) return true;
     return (first >= 0.0) != (middle >= 0.0);
 }
 
-/// @return the distance from the nearer end of an edge to its cut point, in [0, 1/2] of the edge.
+/// @return the distance from the nearer end of an edge to its cut point, in [0, @a reach] of the edge.
 /// @param near  the field's value at that end; @a f gives it at a fraction of the edge from there
 template <typename Function>
-float distanceToCut(double near, Function&& f) {
-    const double middle = f(0.5);
-    // By the rule for ties the cut point may lie just beyond the middle.
-    if ((near >= 0.0) == (middle >= 0.0)) return 0.5f;
-    return float(0.5 * rootInUnitInterval(near, middle, [&](double s) { return f(0.5 * s); }));
+float distanceToCut(double near, double reach, Function&& f) {
+    const double middle = f(reach);
+    // By the rule for ties the cut point may lie just beyond.
+    if ((near >= 0.0) == (middle >= 0.0)) return float(reach);
+    return float(reach * rootInUnitInterval(near, middle, [&](double s) { return f(reach * s); }));
 }
 
 } // namespace vdbtet

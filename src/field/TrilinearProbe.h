@@ -5,7 +5,7 @@
 #include "bcc/Frame.h"
 #include "field/Field.h"
 #include "field/Level.h"
-#include "field/TrilinearSampler.h"
+#include "field/Trilinear.h"
 
 #include <openvdb/tree/ValueAccessor.h>
 

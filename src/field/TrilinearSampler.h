@@ -5,8 +5,10 @@
 #include "bcc/Frame.h"
 #include "field/Brick.h"
 #include "field/Field.h"
+#include "field/GradientRoot.h"
 #include "field/Level.h"
 #include "field/Root.h"
+#include "field/Trilinear.h"
 
 #include <openvdb/tree/ValueAccessor.h>
 
@@ -14,15 +16,6 @@
 #include <limits>
 
 namespace vdbtet {
-
-/// @return the trilinear interpolation of corner values @a p (p[4i+2j+k] at corner (i,j,k)) at (x,y,z) in
-/// [0,1]^3.
-/// @details Exact at the corners, and never of the wrong sign where all corners agree.
-inline double trilinear(const double (&p)[8], double x, double y, double z) {
-    auto mix = [](double a, double b, double w) { return (1.0 - w) * a + w * b; };
-    return mix(mix(mix(p[0], p[1], z), mix(p[2], p[3], z), y), mix(mix(p[4], p[5], z), mix(p[6], p[7], z), y),
-               x);
-}
 
 /// Samples the grid at any lattice point.
 template <typename GridT>
@@ -44,21 +37,38 @@ public:
         }
     }
 
-    void nearerToA(const openvdb::Coord& tile, const std::vector<ShortEdge>& edges,
+    void nearerToA(const openvdb::Coord& tile, const std::vector<ShortEdge>& edges, double tau,
                    std::uint8_t* nearer) override {
         load(tile);
         for (const ShortEdge& e : edges) {
             const openvdb::Vec3d from = position(tile, e.vertex, 0.0), edge = vectorOf(e);
-            *nearer++ = cutInFirstHalf(phi(from), phi(from + 0.5 * edge), phi(from + edge));
+            const double first = phi(from), reach = reachOf(first, e.halved ? 0.5 : tau);
+            *nearer++ = cutInFirstPart(first, phi(from + reach * edge), phi(from + edge));
         }
     }
 
     void cutPoints(const openvdb::Coord& tile, bcc::Lattice lattice, const std::vector<ShortEdge>& edges,
-                   float* distance) override {
+                   double tau, float* distance) override {
         load(tile);
         for (const ShortEdge& e : edges) {
             const openvdb::Vec3d from = position(tile, e.vertex, 0.5 * lattice), edge = vectorOf(e);
-            *distance++ = distanceToCut(phi(from), [&](double s) { return phi(from + s * edge); });
+            const double near = phi(from);
+            *distance++ = distanceToCut(near, reachOf(near, e.halved ? 0.5 : tau),
+                                        [&](double s) { return phi(from + s * edge); });
+        }
+    }
+
+    void alongGradient(const openvdb::Coord& tile, bcc::Lattice lattice,
+                       const std::vector<std::uint16_t>& vertices, const std::vector<double>& reach,
+                       openvdb::Vec3d* offsets) override {
+        load(tile);
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+            const openvdb::Vec3d from = position(tile, vertices[i], 0.5 * lattice);
+            double around[bcc::kDirections];
+            for (int d = 0; d < bcc::kDirections; ++d)
+                around[d] = phi(from + openvdb::Vec3d(bcc::kShortEdges[d]));
+            offsets[i] = rootAlongGradient(phi(from), around, reach[i],
+                                           [&](const openvdb::Vec3d& offset) { return phi(from + offset); });
         }
     }
 

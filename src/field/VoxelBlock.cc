@@ -70,8 +70,9 @@ void VoxelBlock::load(const std::array<const T*, 27>& leaves, const Level& level
 template void VoxelBlock::load(const std::array<const float*, 27>&, const Level&);
 template void VoxelBlock::load(const std::array<const double*, 27>&, const Level&);
 
-void VoxelBlock::addEdge(int n, int direction) {
+void VoxelBlock::addEdge(int n, int direction, double tau) {
     const auto& offsets = kCorners.of[direction];
+    mEdges.tau[mEdges.count] = tau;
     double* corner = &mEdges.corners[0][mEdges.count++];
     for (int i = 0; i < 8; ++i) corner[i * CutEdges::kLanes] = mPhi[n + offsets[i]];
 }
@@ -101,29 +102,32 @@ void VoxelBlock::signs(PaddedMask& a, PaddedMask& b) const {
     });
 }
 
-void VoxelBlock::nearerToA(const std::vector<ShortEdge>& edges, std::uint8_t* nearer) {
+void VoxelBlock::nearerToA(const std::vector<ShortEdge>& edges, double tau, std::uint8_t* nearer) {
     for (std::size_t i = 0; i < edges.size();) {
         mEdges.count = 0;
-        for (; i < edges.size() && !mEdges.full(); ++i) addEdge(edges[i].vertex, edges[i].direction);
-        const std::uint32_t first = cutsInFirstHalf(mEdges, mIsa);
+        for (; i < edges.size() && !mEdges.full(); ++i)
+            addEdge(edges[i].vertex, edges[i].direction, edges[i].halved ? 0.5 : tau);
+        const std::uint32_t first = cutsInFirstPart(mEdges, mIsa);
         for (int lane = 0; lane < mEdges.count; ++lane) *nearer++ = first >> lane & 1;
     }
 }
 
-void VoxelBlock::cutPoints(bcc::Lattice lattice, const std::vector<ShortEdge>& edges, float* distance) {
+void VoxelBlock::cutPoints(bcc::Lattice lattice, const std::vector<ShortEdge>& edges, double tau,
+                           float* distance) {
     for (std::size_t i = 0; i < edges.size();) {
         mEdges.count = 0;
         for (; i < edges.size() && !mEdges.full(); ++i) {
             const int n = edges[i].vertex, direction = edges[i].direction;
+            const double own = edges[i].halved ? 0.5 : tau;
             if (lattice == bcc::A) {
                 mEdges.near[mEdges.count] = mPhi[n];
-                addEdge(n, direction);
+                addEdge(n, direction, own);
             } else {
                 // From its L_A end the edge runs the opposite way. The centre's value is summed in the order
                 // of signs(): else its sign could differ.
                 const bcc::Step step = bcc::shortEdge(bcc::B, direction);
                 mEdges.near[mEdges.count] = centre(n);
-                addEdge(n + PaddedMask::step(step.x, step.y, step.z), bcc::opposite(direction));
+                addEdge(n + PaddedMask::step(step.x, step.y, step.z), bcc::opposite(direction), own);
             }
         }
         distancesToCuts(mEdges, lattice == bcc::B, distance, mIsa);

@@ -7,9 +7,11 @@
 #include "field/CutDistances.h"
 #include "field/Field.h"
 #include "field/Level.h"
+#include "field/Trilinear.h"
 #include "simd/Isa.h"
 
 #include <array>
+#include <cmath>
 
 namespace vdbtet {
 
@@ -24,12 +26,45 @@ public:
     void load(const std::array<const T*, 27>& leaves, const Level& level);
 
     void signs(PaddedMask& a, PaddedMask& b) const;
-    void nearerToA(const std::vector<ShortEdge>& edges, std::uint8_t* nearer);
-    void cutPoints(bcc::Lattice lattice, const std::vector<ShortEdge>& edges, float* distance);
+    void nearerToA(const std::vector<ShortEdge>& edges, double tau, std::uint8_t* nearer);
+    void cutPoints(bcc::Lattice lattice, const std::vector<ShortEdge>& edges, double tau, float* distance);
+
+    /// @return the field at a vertex of the tile, by its PaddedMask::bit().
+    double at(bcc::Lattice lattice, int n) const { return lattice == bcc::A ? mPhi[n] : centre(n); }
+
+    /// The field at the far ends of the short edges of a vertex of the tile.
+    void around(bcc::Lattice lattice, int n, double (&phi)[bcc::kDirections]) const {
+        for (int d = 0; d < bcc::kDirections; ++d) {
+            const bcc::Step step = bcc::shortEdge(lattice, d);
+            phi[d] = at(bcc::other(lattice), n + PaddedMask::step(step.x, step.y, step.z));
+        }
+    }
+
+    /// @return the field at an offset, each component less than 1, from a vertex of the tile.
+    /// @param beyond  gives phi of a voxel that is not in the block, relative to the tile's first one
+    template <typename Beyond>
+    double near(bcc::Lattice lattice, int n, const openvdb::Vec3d& offset, Beyond&& beyond) const {
+        const double shift = 0.5 * lattice;
+        const double place[3] = {PaddedMask::x(n) + shift + offset.x(), PaddedMask::y(n) + shift + offset.y(),
+                                 PaddedMask::z(n) + shift + offset.z()};
+        int low[3];
+        for (int axis = 0; axis < 3; ++axis) low[axis] = int(std::floor(place[axis]));
+        double p[8];
+        if (low[0] < TileMask::kDim && low[1] < TileMask::kDim && low[2] < TileMask::kDim) {
+            const double* first = mPhi + PaddedMask::bit(low[0], low[1], low[2]);
+            for (int corner = 0; corner < 8; ++corner)
+                p[corner] = first[PaddedMask::step(corner >> 2, corner >> 1 & 1, corner & 1)];
+        } else {
+            for (int corner = 0; corner < 8; ++corner)
+                p[corner] = beyond(openvdb::Coord(low[0], low[1], low[2])
+                                       .offsetBy(corner >> 2, corner >> 1 & 1, corner & 1));
+        }
+        return trilinear(p, place[0] - low[0], place[1] - low[1], place[2] - low[2]);
+    }
 
 private:
     /// Add the edge from voxel @a n in @a direction to mEdges.
-    void addEdge(int n, int direction);
+    void addEdge(int n, int direction, double tau);
 
     /// The field at the centre of the cube whose lowest voxel is @a n: at that vertex of L_B.
     double centre(int n) const;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "field/Field.h"
+#include "field/GradientRoot.h"
 #include "field/Level.h"
 #include "field/VoxelBlock.h"
 
@@ -24,16 +25,34 @@ public:
         mBlock.signs(a, b);
     }
 
-    void nearerToA(const openvdb::Coord& tile, const std::vector<ShortEdge>& edges,
+    void nearerToA(const openvdb::Coord& tile, const std::vector<ShortEdge>& edges, double tau,
                    std::uint8_t* nearer) override {
         load(tile);
-        mBlock.nearerToA(edges, nearer);
+        mBlock.nearerToA(edges, tau, nearer);
     }
 
     void cutPoints(const openvdb::Coord& tile, bcc::Lattice lattice, const std::vector<ShortEdge>& edges,
-                   float* distance) override {
+                   double tau, float* distance) override {
         load(tile);
-        mBlock.cutPoints(lattice, edges, distance);
+        mBlock.cutPoints(lattice, edges, tau, distance);
+    }
+
+    void alongGradient(const openvdb::Coord& tile, bcc::Lattice lattice,
+                       const std::vector<std::uint16_t>& vertices, const std::vector<double>& reach,
+                       openvdb::Vec3d* offsets) override {
+        load(tile);
+        const openvdb::Coord origin(8 * tile.x(), 8 * tile.y(), 8 * tile.z());
+        const auto beyond = [&](const openvdb::Coord& voxel) {
+            return mLevel.phi(mAccessor.getValue(origin + voxel));
+        };
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+            double around[bcc::kDirections];
+            mBlock.around(lattice, vertices[i], around);
+            offsets[i] = rootAlongGradient(mBlock.at(lattice, vertices[i]), around, reach[i],
+                                           [&](const openvdb::Vec3d& offset) {
+                                               return mBlock.near(lattice, vertices[i], offset, beyond);
+                                           });
+        }
     }
 
 private:

@@ -159,7 +159,7 @@ private:
     }
 
     void flipActive(Result& result) {
-        chooseActiveSlices(mLocal, mOctahedra, mSlices);
+        chooseActiveSlices(mLocal, mOctahedra, SliceRule::Policy, mSlices);
         for (std::size_t i = 0; i < mActive.size(); ++i) {
             mActive[i].slice = mSlices[i];
             mCodes.push_back(Flips::encode(mActive[i]));

@@ -44,13 +44,14 @@ struct Flips {
 
     std::int64_t active = 0;     ///< flipped by Algorithm 4
     std::int64_t extra = 0;      ///< flipped by Algorithm 5
+    std::int64_t quality = 0;    ///< flipped for the better angles alone, in version 3
     std::int64_t lastResort = 0; ///< of the conflicts, those flipped
     std::int64_t conflicts = 0;  ///< octahedra of Algorithm 5 with another manifold vertex
     /// The centres of the first Places::kMost conflicts, in units of the lattice.
     std::vector<openvdb::Vec3d> conflictPlaces;
 };
 
-/// @brief Choose all flips.
+/// @brief Choose all flips of versions 1 and 2.
 /// @param version  1 for Algorithm 4 alone, 2 for Algorithm 5 too
 /// @details No two flipped octahedra share a tet (Propositions 5 to 7), so each is chosen alone.
 Flips chooseFlips(const Vertices& vertices, int version, Interrupt& interrupt);

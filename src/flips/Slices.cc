@@ -129,8 +129,14 @@ bool better(const SliceQuality& a, const SliceQuality& b) {
     return sameMin ? !sameMax && maxA < maxB : minA > minB;
 }
 
+double worth(const SliceQuality& quality) {
+    constexpr double kObtuse = 0.54; // 39 degrees from 180 are as bad as 21 from 0
+    if (quality.inverted) return 0.0;
+    return std::min(angleOf(quality.maxCos), kObtuse * (180.0 - angleOf(quality.minCos)));
+}
+
 void chooseActiveSlices(const LocalVertices& vertices, const std::vector<LocalOctahedron>& octahedra,
-                        std::vector<bcc::Slice>& slices, Isa isa) {
+                        SliceRule rule, std::vector<bcc::Slice>& slices, Isa isa) {
     slices.clear();
     ActiveBatch batch;
     for (std::size_t first = 0; first < octahedra.size(); first += ActiveBatch::kLanes) {
@@ -139,8 +145,10 @@ void chooseActiveSlices(const LocalVertices& vertices, const std::vector<LocalOc
             batch.set(lane, vertices, octahedra[first + std::size_t(lane)]);
         batch.judge(isa);
         for (int lane = 0; lane < count; ++lane) {
-            const bool slicesB = batch.clear[lane] ? batch.slicesB[lane] != 0
-                                                   : better(batch.quality(1, lane), batch.quality(0, lane));
+            const SliceQuality a = batch.quality(0, lane), b = batch.quality(1, lane);
+            const bool slicesB = rule == SliceRule::Worth ? worth(b) > worth(a) + kTieAngle
+                                 : batch.clear[lane]      ? batch.slicesB[lane] != 0
+                                                          : better(b, a);
             slices.push_back(slicesB ? bcc::SliceB : bcc::SliceA);
         }
     }

@@ -18,6 +18,9 @@ namespace vdbtet {
 /// The 27 tiles around and including a tile, by neighbourSlot().
 using Neighbours = std::array<TileRef, 27>;
 
+/// Vertices of each surface tile, by lattice.
+using VertexMasks = std::vector<std::array<TileMask, 2>>;
+
 /// @brief The tiles that take part, as runs along z in ascending order: single surface tiles, and runs of
 /// interior tiles.
 /// @details A bounded inside ends at the surface in every direction, so what lies between two surface tiles

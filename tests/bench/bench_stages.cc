@@ -99,6 +99,15 @@ benchmark::UserCounters Rounds::run(int threads) {
         openvdb::tools::volumeToMesh(*mGrid, points, quads, report.isovalue);
     });
 
+    vdbtet::Options third;
+    third.tiger = 3;
+    secondsOn(threads, [&] { report = vdbtet::volumeToTets(*mGrid, counting, third); });
+    for (const char* name : {"cuts", "layout", "labels", "destinations", "flips", "guard"}) {
+        for (const auto& stage : report.stages) {
+            if (stage.name == name) counters[std::string("version 3: ") + name] = stage.seconds;
+        }
+    }
+
     vdbtet::Options optimizing;
     optimizing.optimize = 30.0;
     secondsOn(threads, [&] { report = vdbtet::volumeToTets(*mGrid, counting, optimizing); });

@@ -84,7 +84,9 @@ class VdbTet(ToolTest):
             ("--spacing", ["sphere.vdb", "o.vtu", "-s", "0"]),
             ("--spacing", ["sphere.vdb", "o.vtu", "-s", "wide"]),
             ("--voxels", ["sphere.vdb", "o.vtu", "-v", "-1"]),
-            ("--tiger", ["sphere.vdb", "o.vtu", "--tiger", "3"]),
+            ("--tiger", ["sphere.vdb", "o.vtu", "--tiger", "4"]),
+            ("--tau", ["sphere.vdb", "o.vtu", "--tiger", "3", "--tau", "0.9"]),
+            ("only version 3", ["sphere.vdb", "o.vtu", "--tau", "0.6"]),
             ("--inside", ["sphere.vdb", "o.vtu", "--inside", "out"]),
             ("--threads", ["sphere.vdb", "o.vtu", "-j", "-1"]),
             ("cannot tell the format of o.wav", ["sphere.vdb", "o.wav"]),
@@ -137,6 +139,25 @@ class VdbTet(ToolTest):
             with self.subTest(name):
                 self.assert_fails(1, pattern, name, "o.vtu")
         self.assertEqual(self.created(), [])
+
+    def test_version_3(self):
+        self.assert_meshes("sphere.vdb", "two.vtu", "-q", "--report", "two.json")
+        text = self.assert_meshes("sphere.vdb", "three.vtu", "--tiger", "3", "--report", "three.json")
+        self.assertRegex(text, r"flips +\d+ active, [1-9]\d* for quality\n")
+        self.assertRegex(text, r"guard +\d+ points flagged in \d+ rounds\n")
+        self.assert_meshes("sphere.vdb", "low.vtu", "--tiger", "3", "--tau", "0.55", "-q", "--report", "low.json")
+        reports = []
+        for name in ("two.json", "three.json", "low.json"):
+            with open(name) as file:
+                reports.append(json.load(file))
+        two, three, low = reports
+        self.assertEqual((two["tiger"], three["tiger"], low["tiger"]), (2, 3, 3))
+        self.assertGreater(three["angles"]["min"], two["angles"]["min"])
+        self.assertLess(three["angles"]["max"], two["angles"]["max"])
+        self.assertEqual((three["angles"]["provenMin"], three["angles"]["provenMax"]), (8.54, 164.18))
+        self.assertEqual((two["qualityFlips"], two["flagged"], two["guardRounds"]), (0, 0, 0))
+        self.assertGreater(three["qualityFlips"], 0)
+        self.assertNotEqual(three["tets"], low["tets"])
 
     def test_graded_meshes(self):
         self.assert_meshes("sphere.vdb", "u.vtu", "-q", "--report", "u.json")

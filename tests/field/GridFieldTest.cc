@@ -106,6 +106,7 @@ TEST_CASE("sampling voxels and sampling points agree", "[field]") {
     VoxelSampler<openvdb::FloatGrid> voxels(*grid, level);
     TrilinearSampler<openvdb::FloatGrid> points(*grid, frame, level);
     const openvdb::CoordBBox box(Coord(-2), Coord(1));
+    const double tau = GENERATE(0.5, 0.7);
     size_t cuts = 0;
     for (auto it = box.begin(); it; ++it) {
         PaddedMask a, b, a2, b2;
@@ -120,14 +121,15 @@ TEST_CASE("sampling voxels and sampling points agree", "[field]") {
             for (int n = 0; n < TileMask::kSize; ++n) {
                 const int vertex = PaddedMask::bit(n);
                 if (a.test(vertex) != b.test(vertex + toB))
-                    cut.push_back({std::uint16_t(vertex), std::uint16_t(d)});
+                    cut.push_back({std::uint16_t(vertex), std::uint8_t(d), n % 3 == 0});
             }
             std::vector<std::uint8_t> nearer(cut.size()), nearer2(cut.size());
-            voxels.nearerToA(*it, cut, nearer.data());
-            points.nearerToA(*it, cut, nearer2.data());
+            voxels.nearerToA(*it, cut, tau, nearer.data());
+            points.nearerToA(*it, cut, tau, nearer2.data());
             REQUIRE(nearer == nearer2);
             for (size_t i = 0; i < cut.size(); ++i) {
-                const ShortEdge back{std::uint16_t(cut[i].vertex + toB), std::uint16_t(bcc::opposite(d))};
+                const ShortEdge back{std::uint16_t(cut[i].vertex + toB), std::uint8_t(bcc::opposite(d)),
+                                     cut[i].halved};
                 nearer[i] ? edges[bcc::A].push_back(cut[i]) : edges[bcc::B].push_back(back);
             }
             cuts += cut.size();
@@ -142,12 +144,13 @@ TEST_CASE("sampling voxels and sampling points agree", "[field]") {
                                      }),
                       own.end());
             std::vector<float> one(own.size()), two(own.size());
-            voxels.cutPoints(*it, lattice, own, one.data());
-            points.cutPoints(*it, lattice, own, two.data());
+            voxels.cutPoints(*it, lattice, own, tau, one.data());
+            points.cutPoints(*it, lattice, own, tau, two.data());
             for (size_t i = 0; i < one.size(); ++i) {
                 REQUIRE(std::abs(one[i] - two[i]) < 1e-6f);
                 REQUIRE(one[i] >= 0.0f);
-                REQUIRE(one[i] <= 0.5f);
+                const bool isInside = (lattice == bcc::A ? a : b).test(own[i].vertex);
+                REQUIRE(one[i] <= float(own[i].halved ? 0.5 : isInside ? tau : 1.0 - tau));
             }
         }
     }
@@ -194,12 +197,12 @@ TEST_CASE("the root finder stays in its bracket and meets hard functions", "[fie
 }
 
 TEST_CASE("a cut point in the middle belongs to the first end", "[field]") {
-    REQUIRE(cutInFirstHalf(1.0, 0.0, -1.0));
-    REQUIRE(cutInFirstHalf(-1.0, 0.0, 1.0));
-    REQUIRE(cutInFirstHalf(1.0, 1e-9, -1.0));
-    REQUIRE(cutInFirstHalf(1.0, -0.1, -1.2));
-    REQUIRE(!cutInFirstHalf(1.0, 0.1, -0.8));
-    REQUIRE(distanceToCut(1.0, [](double s) { return 1.0 - 1.999999999 * s; }) == 0.5f);
+    REQUIRE(cutInFirstPart(1.0, 0.0, -1.0));
+    REQUIRE(cutInFirstPart(-1.0, 0.0, 1.0));
+    REQUIRE(cutInFirstPart(1.0, 1e-9, -1.0));
+    REQUIRE(cutInFirstPart(1.0, -0.1, -1.2));
+    REQUIRE(!cutInFirstPart(1.0, 0.1, -0.8));
+    REQUIRE(distanceToCut(1.0, 0.5, [](double s) { return 1.0 - 1.999999999 * s; }) == 0.5f);
 }
 
 } // namespace vdbtet::test

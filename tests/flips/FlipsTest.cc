@@ -53,7 +53,9 @@ public:
             order.push_back(number);
         }
         std::sort(order.begin(), order.end(), [&](int a, int b) { return mOctahedron[a] < mOctahedron[b]; });
-        mDestinations.numberMoves(mLabels.manifold);
+        const auto moves = std::size_t(mDestinations.number(mLabels.manifold));
+        mDestinations.directions.resize(moves);
+        mDestinations.distances.resize(moves);
         for (std::size_t i = 0; i < order.size(); ++i) {
             mDestinations.directions[i] = std::uint8_t(mMoves[order[i]].direction);
             mDestinations.distances[i] = float(mMoves[order[i]].alpha);
@@ -134,7 +136,7 @@ struct Figure {
 
 bcc::Slice chooseActiveSlice(const LocalVertices& local, const LocalOctahedron& octahedron) {
     std::vector<bcc::Slice> slices;
-    chooseActiveSlices(local, {octahedron}, slices);
+    chooseActiveSlices(local, {octahedron}, SliceRule::Policy, slices);
     REQUIRE(slices.size() == 1);
     return slices[0];
 }

@@ -106,7 +106,7 @@ TEST_CASE("the boundary is a surface whatever the shape: noise") {
         const auto noise = levelSet(noiseBall(seed, {0.1, 0.2, 0.3}, 14, 1.5));
         const auto cuts = randomCuts(10, seed, 0.7), signs = randomSigns(14, seed);
         for (const bool grade : {false, true}) {
-            for (const int tiger : {1, 2}) {
+            for (const int tiger : {1, 2, 3}) {
                 const auto options = [&](double voxels) {
                     Options result = atVoxels(voxels, tiger);
                     result.grade = grade;

@@ -30,6 +30,9 @@ void requireSameReport(const Report& a, const Report& b) {
     CHECK(a.activeFlips == b.activeFlips);
     CHECK(a.extraFlips == b.extraFlips);
     CHECK(a.lastResortFlips == b.lastResortFlips);
+    CHECK(a.qualityFlips == b.qualityFlips);
+    CHECK(a.flagged == b.flagged);
+    CHECK(a.guardRounds == b.guardRounds);
     CHECK(a.surfaceTiles == b.surfaceTiles);
     CHECK(a.cutEdges == b.cutEdges);
     CHECK(a.tieBroken == b.tieBroken);
@@ -97,4 +100,17 @@ TEST_CASE("any number of threads gives the same bytes: optimised") {
         requireDeterministic(*levelSet(noiseBall(1, {0.1, 0.2, 0.3}, 22, 2)), options);
         requireDeterministic(*randomSigns(24, 1), options);
     }
+}
+
+TEST_CASE("any number of threads gives the same bytes: version 3") {
+    requireDeterministic(*levelSet(torus({0.3, -0.2, 0.1}, 25, 11)), atVoxels(0.9, 3));
+    for (const bool grade : {false, true}) {
+        Options options = atVoxels(0.9, 3);
+        options.grade = grade;
+        requireDeterministic(*levelSet(noiseBall(1, {0.1, 0.2, 0.3}, 22, 1.5)), options);
+        options.optimize = 34;
+        requireDeterministic(*randomSigns(24, 1), options);
+    }
+    requireDeterministic(*randomCuts(24, 2, 0.7), atVoxels(2.0, 3));
+    requireDeterministic(*levelSet(box({-10.5, -10.5, -10.5}, {10.5, 10.5, 10.5})), atVoxels(1.0, 3));
 }

@@ -103,8 +103,11 @@ TEST_CASE("options out of range are refused") {
         requireRefused<BadOption>(*ball(), with([=](Options& o) { o.spacing = value; }));
         requireRefused<BadOption>(*ball(), with([=](Options& o) { o.voxels = value; }));
     }
-    for (const int tiger : {-1, 0, 3})
+    for (const int tiger : {-1, 0, 4})
         requireRefused<BadOption>(*ball(), with([=](Options& o) { o.tiger = tiger; }));
+    for (const double tau : {0.0, 0.49, 0.81, bad[2]})
+        requireRefused<BadOption>(*ball(), with([=](Options& o) { o.tiger = 3, o.tau = tau; }));
+    requireRefused<BadOption>(*ball(), with([=](Options& o) { o.tau = 0.7; }));
     for (const double value : {bad[2], bad[3], -bad[3]})
         requireRefused<BadOption>(*ball(), with([=](Options& o) { o.isovalue = value; }));
     for (const double target : {0.5, 38.5, -30.0, bad[2], bad[3]})

@@ -61,7 +61,7 @@ TEST_CASE("every mesh is clean and in its bounds: noise", "[property]") {
         for (const double feature : {1.0, 2.0, 4.0}) {
             const auto grid = levelSet(noiseBall(seed, {0.1, 0.2, 0.3}, 10, feature));
             for (const double voxels : {0.7, 1.0, 2.3})
-                for (const int tiger : {1, 2}) requireCleanAt(*grid, atVoxels(voxels, tiger));
+                for (const int tiger : {1, 2, 3}) requireCleanAt(*grid, atVoxels(voxels, tiger));
         }
     }
 }
@@ -69,7 +69,7 @@ TEST_CASE("every mesh is clean and in its bounds: noise", "[property]") {
 TEST_CASE("every mesh is clean and in its bounds: random signs", "[property]") {
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
         const auto signs = randomSigns(14, seed), cuts = randomCuts(10, seed, 0.7);
-        for (const int tiger : {1, 2}) {
+        for (const int tiger : {1, 2, 3}) {
             for (const double voxels : {0.5, 1.0, 1.7}) requireCleanAt(*signs, atVoxels(voxels, tiger));
             requireCleanAt(*cuts, atVoxels(2.0, tiger));
         }

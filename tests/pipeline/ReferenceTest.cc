@@ -7,6 +7,8 @@
 #include "support/MeshMatch.h"
 #include "support/Meshing.h"
 
+#include <algorithm>
+
 using namespace vdbtet;
 using namespace vdbtet::test;
 
@@ -49,6 +51,33 @@ ReferenceMesh requireReference(const openvdb::GridBase& grid, const Options& opt
     CHECK(fast.report.activeFlips == slow.activeFlips);
     CHECK(fast.report.extraFlips == slow.extraFlips);
     CHECK(fast.report.lastResortFlips == slow.lastResortFlips);
+    CHECK(fast.report.cutEdges == slow.cutEdges);
+    CHECK(fast.report.tieBroken == slow.undecided);
+    requireClean(fast.mesh, fast.report);
+    return slow;
+}
+
+/// The same for version 3.
+ReferenceMesh requireThirdReference(const openvdb::GridBase& grid, double voxels, double tau = kDefaultTau) {
+    Options options = raw(atVoxels(voxels, 3));
+    options.tau = tau;
+    const Meshed fast = meshOf(grid, options);
+    const GridField field(grid, fast.report.isovalue, fast.report.inside, fast.report.spacing);
+    const ReferenceMesh slow = thirdReferenceMesh(field.phi(), field.box(), tau);
+    INFO("spacing " << fast.report.spacing << ", tau " << tau);
+    REQUIRE(slow.manyRoots == 0);
+    REQUIRE(slow.nearHalfTies == 0);
+    REQUIRE(!slow.tets.empty());
+
+    TetMesh expected;
+    for (const Vec3d& p : slow.points) expected.points.push_back(field.frame().toWorld(p));
+    expected.tets = slow.tets;
+    requireSame(fast.mesh, expected, kPrecision * fast.report.spacing);
+    CHECK(fast.report.ambiguous == slow.ambiguous);
+    CHECK(fast.report.activeFlips == slow.activeFlips);
+    CHECK(fast.report.qualityFlips == slow.qualityFlips);
+    CHECK(fast.report.flagged == slow.flagged);
+    CHECK(fast.report.guardRounds == slow.guardRounds);
     CHECK(fast.report.cutEdges == slow.cutEdges);
     CHECK(fast.report.tieBroken == slow.undecided);
     requireClean(fast.mesh, fast.report);
@@ -176,4 +205,35 @@ TEST_CASE("the mesh is the reference's: across tiles and nodes", "[reference]") 
     requireReference(*levelSet(torus(offCentre(51), 12, 4.3)), atVoxels(1.0));
     requireReference(*levelSet(twoBalls(offCentre(52), 5.2, 21)), atVoxels(1.0));
     requireReference(*levelSet(sphere(offCentre(53) + Vec3d(127.8, -128.1, 16.2), 7.3)), atVoxels(0.8));
+}
+
+TEST_CASE("the mesh is the reference's: version 3 on smooth shapes", "[reference]") {
+    std::int64_t qualityFlips = 0;
+    for (const double voxels : {1.0, 0.7, 2.0}) {
+        for (const double tau : {0.5, 0.7}) {
+            qualityFlips += requireThirdReference(*levelSet(sphere(offCentre(3), 5.3 * voxels)), voxels, tau)
+                                .qualityFlips;
+            requireThirdReference(*levelSet(torus(offCentre(11), 5 * voxels, 2.2 * voxels)), voxels, tau);
+        }
+        requireThirdReference(*levelSet(gyroidBall(offCentre(22), 9 * voxels, 9 * voxels, 3 * voxels)),
+                              voxels);
+    }
+    CHECK(qualityFlips > 0);
+}
+
+TEST_CASE("the mesh is the reference's: version 3 on noise, with rounds of its guard", "[reference]") {
+    std::int64_t flagged = 0, rounds = 0;
+    for (const std::uint64_t seed : {1, 2, 3, 4}) {
+        const ReferenceMesh mesh =
+            requireThirdReference(*levelSet(noiseBall(seed, offCentre(seed), 11, 3)), 1.0);
+        flagged += mesh.flagged;
+        rounds = std::max(rounds, mesh.guardRounds);
+    }
+    for (const std::uint64_t seed : {1, 2, 3}) {
+        const ReferenceMesh mesh = requireThirdReference(*randomCuts(10, seed, 0.7), 2.0);
+        flagged += mesh.flagged;
+        rounds = std::max(rounds, mesh.guardRounds);
+    }
+    CHECK(flagged > 100);
+    CHECK(rounds > 1);
 }

@@ -16,7 +16,7 @@ constexpr double kMiddle = 1e-7;
 
 } // namespace
 
-DenseLattice::DenseLattice(const openvdb::CoordBBox& box, const Phi& phi) {
+DenseLattice::DenseLattice(const openvdb::CoordBBox& box, const Phi& phi, double tau) {
     for (int axis = 0; axis < 3; ++axis) {
         mOrigin[axis] = 2 * box.min()[axis];
         mCount[axis] = std::size_t(2 * (box.max()[axis] - box.min()[axis]) + 1);
@@ -41,7 +41,7 @@ DenseLattice::DenseLattice(const openvdb::CoordBBox& box, const Phi& phi) {
     }
     for (const Vertex a : mA)
         for (int d = 0; d < kDirections; ++d)
-            if (holds(point(a) + directionVector(d))) cutEdge(a, d, phi);
+            if (holds(point(a) + directionVector(d))) cutEdge(a, d, phi, tau);
 }
 
 bool DenseLattice::holds(const LatticePoint& p) const {
@@ -64,7 +64,7 @@ Vertex DenseLattice::neighbour(Vertex v, int direction) const {
     return vertex(point(v) + directionVector(direction));
 }
 
-void DenseLattice::cutEdge(Vertex a, int direction, const Phi& phi) {
+void DenseLattice::cutEdge(Vertex a, int direction, const Phi& phi, double tau) {
     const Vertex b = neighbour(a, direction);
     if (mInside[a] == mInside[b]) return;
     const Vec3d from = Vec3d(point(a)) * 0.5, along = Vec3d(directionVector(direction)) * 0.5;
@@ -83,11 +83,15 @@ void DenseLattice::cutEdge(Vertex a, int direction, const Phi& phi) {
     mCut[a][direction] = t;
     mCut[b][opposite(direction)] = 1 - t;
 
+    // Ties at another threshold are nobody's: a fixture shall have none.
+    const double there = std::abs(at(mInside[a] ? tau : 1 - tau)) / std::abs(at(1) - at(0));
+    nearHalfTies += tau != 0.5 && there < 2 * kMiddle;
+
     int changes = 0;
-    const double start = t > 0.5 ? 0.5 : 0;
+    const double start = t > 0.5 && tau == 0.5 ? 0.5 : 0, length = tau == 0.5 ? 0.5 : 1;
     bool last = start == 0 ? mInside[a] : insideAt(start);
     for (int i = 1; i <= kProbes; ++i) {
-        const double probe = start + 0.5 * i / kProbes;
+        const double probe = start + length * i / kProbes;
         const bool now = probe == 1 ? mInside[b] : insideAt(probe);
         changes += now != last;
         last = now;

@@ -33,7 +33,8 @@ inline int opposite(int d) { return 7 - d; }
 class DenseLattice {
 public:
     /// @param box  L_A points, inclusive. The two outermost layers must be outside.
-    DenseLattice(const openvdb::CoordBBox& box, const Phi& phi);
+    /// @param tau  where the threshold of an edge may be but in the middle, from its end inside
+    DenseLattice(const openvdb::CoordBBox& box, const Phi& phi, double tau = 0.5);
 
     std::size_t size() const { return mInside.size(); }
     bool holds(const LatticePoint& p) const;
@@ -50,14 +51,15 @@ public:
     double cutDistance(Vertex v, int direction) const { return mCut[v][direction]; }
     bool isCut(Vertex v, int direction) const { return mCut[v][direction] <= 1; }
 
-    /// Cut edges on whose nearer half phi changes its sign more than once, so that the cut point is a matter
-    /// of choice. One in the half whose ends differ in sign is always chosen.
+    /// Cut edges on whose nearer half, or on all of which where tau is not 1/2, phi changes its sign more
+    /// than once, so that the cut point is a matter of choice. One in the half whose ends differ in sign is
+    /// always chosen.
     std::int64_t manyRoots = 0;
     /// Cut edges cut in the middle, so that the nearer end is a matter of choice, and those that might be.
     std::int64_t halfTies = 0, nearHalfTies = 0;
 
 private:
-    void cutEdge(Vertex a, int direction, const Phi& phi);
+    void cutEdge(Vertex a, int direction, const Phi& phi, double tau);
 
     LatticePoint mOrigin;
     std::array<std::size_t, 3> mCount;

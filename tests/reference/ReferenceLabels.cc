@@ -92,17 +92,20 @@ struct Search {
 
 /// A manifold vertex may move along a cut edge that it is nearer to (or as near: the L_A end), to a vertex
 /// that is not manifold.
-bool isArrow(const DenseLattice& lattice, Vertex v, int d, bool inA) {
+bool isArrow(const DenseLattice& lattice, const Threshold& threshold, Vertex v, int d, bool inA) {
     const double t = lattice.cutDistance(v, d);
-    return inA ? t <= 0.5 : t < 0.5;
+    if (t > 1) return false;
+    const double reach = threshold.reach(lattice, v, d);
+    return inA ? t <= reach : t < reach;
 }
 
 /// The nearest destination of each manifold vertex, ties to the lowest direction number.
-void chooseDestinations(const DenseLattice& lattice, Labels& labels) {
+void chooseDestinations(const DenseLattice& lattice, const Threshold& threshold, Labels& labels) {
     const auto choose = [&](Vertex v) {
         double nearest = 2;
         const auto leads = [&](int d) {
-            return lattice.cutDistance(v, d) <= 0.5 && !labels.manifold(lattice.neighbour(v, d));
+            return lattice.isCut(v, d) && lattice.cutDistance(v, d) <= threshold.reach(lattice, v, d) &&
+                   !labels.manifold(lattice.neighbour(v, d));
         };
         for (int d = 0; d < kDirections; ++d)
             if (leads(d)) nearest = std::min(nearest, lattice.cutDistance(v, d));
@@ -126,7 +129,12 @@ void chooseDestinations(const DenseLattice& lattice, Labels& labels) {
 
 } // namespace
 
-Labels kernelLabels(const DenseLattice& lattice) {
+double Threshold::reach(const DenseLattice& lattice, Vertex v, int direction) const {
+    if (!flagged.empty() && (flagged[v] || flagged[lattice.neighbour(v, direction)])) return 0.5;
+    return lattice.inside(v) ? tau : 1 - tau;
+}
+
+Labels kernelLabels(const DenseLattice& lattice, const Threshold& threshold) {
     enum State : char { Undecided, InKernel, Manifold };
     std::vector<State> state(lattice.size(), Undecided);
     Labels labels;
@@ -137,7 +145,7 @@ Labels kernelLabels(const DenseLattice& lattice) {
         if (state[v] != Undecided) return;
         bool sink = true;
         for (int d = 0; d < kDirections; ++d) {
-            if (!isArrow(lattice, v, d, inA)) continue;
+            if (!isArrow(lattice, threshold, v, d, inA)) continue;
             const State to = state[lattice.neighbour(v, d)];
             if (to == InKernel) state[v] = Manifold;
             sink &= to == Manifold;
@@ -161,7 +169,7 @@ Labels kernelLabels(const DenseLattice& lattice) {
     };
     settle(lattice.verticesA(), InKernel);
     settle(lattice.verticesB(), Manifold);
-    chooseDestinations(lattice, labels);
+    chooseDestinations(lattice, threshold, labels);
     labels.staleDestinations = 0;
     return labels;
 }
@@ -173,7 +181,7 @@ Labels searchedLabels(const DenseLattice& lattice) {
     search.labelInitially();
     search.backLabel(lattice.verticesA());
     search.backLabel(lattice.verticesB());
-    chooseDestinations(lattice, labels);
+    chooseDestinations(lattice, {}, labels);
     labels.undecided = kernelLabels(lattice).undecided;
     return labels;
 }

@@ -26,8 +26,16 @@ struct Labels {
 /// chosen anew, as the search can leave one that was the nearest only while others were manifold.
 Labels searchedLabels(const DenseLattice& lattice);
 
+/// How far from an end, in short edges, a cut point may be for that end to be the near one.
+struct Threshold {
+    double tau = 0.5;               ///< from an end inside; 1 - tau from one outside
+    std::vector<bool> flagged = {}; ///< the vertices at whose edges it is 1/2; empty for none
+
+    double reach(const DenseLattice& lattice, Vertex v, int direction) const;
+};
+
 /// The kernel of the arrows from near to far ends of cut short edges: sinks join, their predecessors do not,
 /// and so on; of the vertices that stay undecided those of L_A join.
-Labels kernelLabels(const DenseLattice& lattice);
+Labels kernelLabels(const DenseLattice& lattice, const Threshold& threshold = {});
 
 } // namespace vdbtet::test

@@ -1,10 +1,11 @@
-// Algorithms 1, 4 and 5 over a dense lattice, one vertex and one edge at a time.
+// Algorithms 1, 4 and 5, and version 3, over a dense lattice, one vertex and one edge at a time.
 #include "reference/ReferenceMesher.h"
 
 #include "reference/Octahedron.h"
 #include "support/MeshChecker.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -26,12 +27,23 @@ struct Score {
     bool inverted = false;
 };
 
+/// What version 3 looks at.
+double worthOf(const Score& score) {
+    return score.inverted ? 0 : std::min(score.min, 0.54 * (180 - score.max));
+}
+
 class Mesher {
 public:
     Mesher(const DenseLattice& lattice, const Labels& labels, int tiger)
         : mLattice(lattice), mLabels(labels), mTiger(tiger) {}
 
     ReferenceMesh run();
+
+    /// Version 3: destinations along the gradient.
+    void moveAlongGradient(const Phi& phi, const std::vector<bool>& flagged);
+    /// Flag what the guard would.
+    /// @return whether anything is flagged that was not
+    bool flagBad(std::vector<bool>& flagged);
 
 private:
     bool manifold(const LatticePoint& p) const { return mLabels.manifold(mLattice.vertex(p)); }
@@ -60,6 +72,8 @@ private:
     void flipExtra(const LatticePoint& v1, const LatticePoint& e1, const LatticePoint& across);
     bool flipLastResort(const Octahedron& o, const LatticePoint& fourth);
     void visitLongEdges();
+    double worth(const std::array<Corners, 4>& tets) const;
+    void flipForQuality();
     std::vector<Corners> triangulation() const;
 
     const DenseLattice& mLattice;
@@ -67,6 +81,7 @@ private:
     const int mTiger;
     /// The new tets of each flipped spine, by its ends in ascending order.
     std::map<std::pair<Vertex, Vertex>, std::array<Corners, 4>> mFlipped;
+    std::map<Vertex, Vec3d> mOffsets; ///< of version 3
     ReferenceMesh mResult;
 };
 
@@ -81,6 +96,7 @@ std::pair<LatticePoint, LatticePoint> spineAxes(int axis) {
 Vec3d Mesher::position(Vertex v) const {
     const Vec3d home = Vec3d(mLattice.point(v)) * 0.5;
     if (!mLabels.manifold(v)) return home;
+    if (mTiger == 3) return home + mOffsets.at(v);
     const int d = mLabels.move[v];
     return home + mLattice.cutDistance(v, d) * 0.5 * Vec3d(directionVector(d));
 }
@@ -142,7 +158,8 @@ void Mesher::flipActive(const Octahedron& o) {
         if (!manifold(o.v[i])) throw std::logic_error("proposition 4 does not hold");
     const auto interior = [&](const Corners& tet) { return isInterior(tet); };
     const Score a = score(cornersOf(o, kSliceA), interior), b = score(cornersOf(o, kSliceB), interior);
-    flip(o, isBetter(b, a) ? kSliceB : kSliceA);
+    const bool slicesB = mTiger == 3 ? worthOf(b) > worthOf(a) + kAngleTie : isBetter(b, a);
+    flip(o, slicesB ? kSliceB : kSliceA);
     ++mResult.activeFlips;
 }
 
@@ -237,8 +254,124 @@ std::vector<Corners> Mesher::triangulation() const {
     return result;
 }
 
-ReferenceMesh Mesher::run() {
+void Mesher::moveAlongGradient(const Phi& phi, const std::vector<bool>& flagged) {
+    const auto move = [&](Vertex v) {
+        const Vec3d home = Vec3d(mLattice.point(v)) * 0.5;
+        const double distance = mLattice.cutDistance(v, mLabels.move[v]);
+        Vec3d offset = distance * 0.5 * Vec3d(directionVector(mLabels.move[v]));
+        Vec3d gradient(0.0);
+        for (int d = 0; d < kDirections; ++d) {
+            const Vec3d edge = 0.5 * Vec3d(directionVector(d));
+            gradient += 0.5 * edge * phi(home + edge);
+        }
+        const Vec3d way = gradient.unit() * ((mLattice.inside(v) ? -1 : 1) * distance * std::sqrt(0.75));
+        if (!flagged[v] && (phi(home + way) >= 0) != mLattice.inside(v)) {
+            double lo = 0, hi = 1;
+            for (int i = 0; i < 60; ++i) {
+                const double mid = 0.5 * (lo + hi);
+                ((phi(home + mid * way) >= 0) == mLattice.inside(v) ? lo : hi) = mid;
+            }
+            offset = 0.5 * (lo + hi) * way;
+        }
+        mOffsets[v] = offset;
+    };
+    for (const Vertex v : mLattice.verticesA())
+        if (mLabels.manifold(v)) move(v);
+    for (const Vertex v : mLattice.verticesB())
+        if (mLabels.manifold(v)) move(v);
+}
+
+double Mesher::worth(const std::array<Corners, 4>& tets) const {
+    return worthOf(score(tets, [](const Corners&) { return true; }));
+}
+
+/// One round: each candidate against those at its ring edges, the tets it shares.
+void Mesher::flipForQuality() {
+    struct Candidate {
+        Octahedron octahedron;
+        const Slice* slice;
+        double gain;
+        std::array<int, 4> order; // by place, then L_A first: of a tie the first one flips
+    };
+    std::map<std::pair<Vertex, Vertex>, Candidate> candidates;
+    const auto allInterior = [&](const std::array<Corners, 4>& tets) {
+        return std::all_of(tets.begin(), tets.end(), [&](const Corners& tet) { return isInterior(tet); });
+    };
+    const auto visit = [&](Vertex lower) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto [e1, e2] = spineAxes(axis);
+            const Octahedron o(mLattice.point(lower), e1, e2);
+            if (!holds(o)) continue;
+            const auto on = std::count_if(o.v.begin(), o.v.end(), [&](const auto& p) { return manifold(p); });
+            const auto standard = cornersOf(o, kSliceS);
+            if (on < 2 || !allInterior(standard)) continue;
+            const double now = worth(standard);
+            Candidate best{o, nullptr, 0.1, {}};
+            for (const Slice* slice : {&kSliceA, &kSliceB}) {
+                const auto tets = cornersOf(o, *slice);
+                const double gain = worth(tets) - now;
+                mResult.sliceTies += best.slice != nullptr && std::abs(gain - best.gain) <= kAngleTie;
+                mResult.sliceTies += std::abs(gain - 0.1) <= kAngleTie;
+                if (!allInterior(tets) || gain <= best.gain + (best.slice ? kAngleTie : 0)) continue;
+                best.slice = slice;
+                best.gain = gain;
+            }
+            if (!best.slice) continue;
+            const LatticePoint p = o.v[0];
+            best.order = {p[0] >> 1, p[1] >> 1, p[2] >> 1, p[0] & 1};
+            candidates.emplace(std::minmax(mLattice.vertex(o.v[0]), mLattice.vertex(o.v[1])), best);
+        }
+    };
+    for (const Vertex v : mLattice.verticesA()) visit(v);
+    for (const Vertex v : mLattice.verticesB()) visit(v);
+    std::vector<const Candidate*> chosen;
+    for (const auto& [spine, candidate] : candidates) {
+        bool wins = true;
+        for (int r = 0; r < 4; ++r) {
+            const Vertex a = mLattice.vertex(candidate.octahedron.v[std::size_t(2 + r)]),
+                         b = mLattice.vertex(candidate.octahedron.v[std::size_t(2 + (r + 1) % 4)]);
+            if (mFlipped.count(std::minmax(a, b)))
+                throw std::logic_error("a candidate has an active ring edge");
+            const auto other = candidates.find(std::minmax(a, b));
+            if (other == candidates.end()) continue;
+            const double more = candidate.gain - other->second.gain;
+            wins = wins && (std::abs(more) <= kAngleTie ? candidate.order < other->second.order : more > 0);
+        }
+        if (wins) chosen.push_back(&candidate);
+    }
+    for (const Candidate* candidate : chosen) flip(candidate->octahedron, *candidate->slice);
+    mResult.qualityFlips += std::int64_t(chosen.size());
+}
+
+bool Mesher::flagBad(std::vector<bool>& flagged) {
     visitLongEdges();
+    flipForQuality();
+    bool isNew = false;
+    const auto flag = [&](Vertex v) {
+        if (!mLabels.manifold(v) || flagged[v]) return;
+        flagged[v] = isNew = true;
+    };
+    const auto isBad = [&](const Corners& tet) {
+        if (!isInterior(tet)) return false;
+        const Score one = score({tet, tet, tet, tet}, [](const Corners&) { return true; });
+        return one.inverted || one.min <= 18 || one.max >= 146;
+    };
+    for (const auto& [spine, tets] : mFlipped) {
+        if (std::none_of(tets.begin(), tets.end(), isBad)) continue;
+        for (const Corners& tet : tets)
+            for (const Vertex v : tet) flag(v);
+    }
+    std::vector<Corners> others = triangulation();
+    others.resize(others.size() - 4 * mFlipped.size());
+    for (const Corners& tet : others) {
+        if (!isBad(tet) && !isAmbiguous(tet)) continue;
+        for (const Vertex v : tet) flag(v);
+    }
+    return isNew;
+}
+
+ReferenceMesh Mesher::run() {
+    if (mTiger < 3) visitLongEdges();
     std::map<Vertex, std::int64_t> ids;
     for (const Corners& tet : triangulation()) {
         mResult.ambiguous += isAmbiguous(tet);
@@ -268,6 +401,21 @@ ReferenceMesh referenceMesh(const Phi& phi, const openvdb::CoordBBox& box, int t
     const DenseLattice lattice(box, phi);
     const Labels labels = labelling == Labelling::Search ? searchedLabels(lattice) : kernelLabels(lattice);
     return Mesher(lattice, labels, tiger).run();
+}
+
+ReferenceMesh thirdReferenceMesh(const Phi& phi, const openvdb::CoordBBox& box, double tau) {
+    const DenseLattice lattice(box, phi, tau);
+    Threshold threshold{tau, std::vector<bool>(lattice.size())};
+    for (std::int64_t rounds = 0;; ++rounds) {
+        const Labels labels = kernelLabels(lattice, threshold);
+        Mesher mesher(lattice, labels, 3);
+        mesher.moveAlongGradient(phi, threshold.flagged);
+        if (mesher.flagBad(threshold.flagged)) continue;
+        ReferenceMesh mesh = mesher.run();
+        mesh.flagged = std::count(threshold.flagged.begin(), threshold.flagged.end(), true);
+        mesh.guardRounds = rounds;
+        return mesh;
+    }
 }
 
 } // namespace vdbtet::test

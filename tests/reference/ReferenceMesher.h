@@ -21,6 +21,9 @@ struct ReferenceMesh {
     std::int64_t activeFlips = 0;
     std::int64_t extraFlips = 0;
     std::int64_t lastResortFlips = 0;
+    std::int64_t qualityFlips = 0;
+    std::int64_t flagged = 0;
+    std::int64_t guardRounds = 0;
     std::int64_t cutEdges = 0;
 
     /// Where no rule says which of several meshes is right.
@@ -41,5 +44,9 @@ struct ReferenceMesh {
 /// @param tiger  the version, 1 or 2
 ReferenceMesh referenceMesh(const Phi& phi, const openvdb::CoordBBox& box, int tiger = 2,
                             Labelling labelling = Labelling::Search);
+
+/// Version 3, with the kernel for its labels and all made anew in each round of the guard.
+/// @param tau  of the threshold
+ReferenceMesh thirdReferenceMesh(const Phi& phi, const openvdb::CoordBBox& box, double tau);
 
 } // namespace vdbtet::test

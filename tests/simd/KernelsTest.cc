@@ -56,11 +56,11 @@ struct BlockResult {
             for (int n = 0; n < TileMask::kSize; ++n) {
                 const int vertex = PaddedMask::bit(n);
                 if (a.test(vertex) != b.test(vertex + toB))
-                    edges.push_back({std::uint16_t(vertex), std::uint16_t(d)});
+                    edges.push_back({std::uint16_t(vertex), std::uint8_t(d), n % 3 == 0});
             }
         }
         nearer.resize(edges.size());
-        block.nearerToA(edges, nearer.data());
+        block.nearerToA(edges, 0.7, nearer.data());
         for (size_t i = 0; i < edges.size(); ++i) {
             const ShortEdge& e = edges[i];
             const bcc::Step step = bcc::shortEdge(bcc::A, e.direction);
@@ -68,12 +68,13 @@ struct BlockResult {
             if (nearer[i]) {
                 nearEdges[bcc::A].push_back(e);
             } else if (std::min({PaddedMask::x(end), PaddedMask::y(end), PaddedMask::z(end)}) >= 0) {
-                nearEdges[bcc::B].push_back({std::uint16_t(end), std::uint16_t(bcc::opposite(e.direction))});
+                nearEdges[bcc::B].push_back(
+                    {std::uint16_t(end), std::uint8_t(bcc::opposite(e.direction)), e.halved});
             }
         }
         for (bcc::Lattice lattice : {bcc::A, bcc::B}) {
             distances[lattice].resize(nearEdges[lattice].size());
-            block.cutPoints(lattice, nearEdges[lattice], distances[lattice].data());
+            block.cutPoints(lattice, nearEdges[lattice], 0.7, distances[lattice].data());
         }
     }
 };
@@ -115,8 +116,11 @@ TEST_CASE("cut points in lanes are those of the root finder", "[simd]") {
                 for (int i = 0; i < 8; ++i) edges.corners[i][edges.count] = p[i] = random.uniform(-1.0, 1.0);
                 const Diagonal phi = Diagonal::of(p);
                 const double near = nearIsB ? centreValue(p) : p[0];
+                const double tau = batch % 2 ? 0.7 : 0.5;
                 edges.near[edges.count] = near;
-                expected.push_back(distanceToCut(near, [&](double s) { return phi(nearIsB ? 1.0 - s : s); }));
+                edges.tau[edges.count] = tau;
+                expected.push_back(distanceToCut(near, reachOf(near, tau),
+                                                 [&](double s) { return phi(nearIsB ? 1.0 - s : s); }));
                 ++edges.count;
             }
             found.resize(expected.size());
@@ -223,7 +227,7 @@ TEST_CASE("slices are chosen the same on every instruction set", "[simd]") {
             }
         }
         std::vector<bcc::Slice> plain, other;
-        chooseActiveSlices(local, octahedra, plain, Isa::Plain);
+        chooseActiveSlices(local, octahedra, SliceRule::Policy, plain, Isa::Plain);
         for (std::size_t i = 0; i < octahedra.size(); ++i) {
             // Lanes decide where it is clear; the rule decides everywhere.
             const SliceQuality a = sliceQuality(local, octahedra[i], bcc::SliceA),
@@ -231,7 +235,17 @@ TEST_CASE("slices are chosen the same on every instruction set", "[simd]") {
             REQUIRE(plain[i] == (better(b, a) ? bcc::SliceB : bcc::SliceA));
         }
         for (Isa isa : vectorSets()) {
-            chooseActiveSlices(local, octahedra, other, isa);
+            chooseActiveSlices(local, octahedra, SliceRule::Policy, other, isa);
+            REQUIRE(other == plain);
+        }
+        chooseActiveSlices(local, octahedra, SliceRule::Worth, plain, Isa::Plain);
+        for (std::size_t i = 0; i < octahedra.size(); ++i) {
+            const double a = worth(sliceQuality(local, octahedra[i], bcc::SliceA)),
+                         b = worth(sliceQuality(local, octahedra[i], bcc::SliceB));
+            REQUIRE(plain[i] == (b > a + kTieAngle ? bcc::SliceB : bcc::SliceA));
+        }
+        for (Isa isa : vectorSets()) {
+            chooseActiveSlices(local, octahedra, SliceRule::Worth, other, isa);
             REQUIRE(other == plain);
         }
         chosen += plain.size();

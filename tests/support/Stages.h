@@ -24,7 +24,7 @@ struct Stages {
     explicit Stages(const openvdb::FloatGrid& grid, double voxels = 1.0, int margin = 0)
         : field(grid, makeFrame(grid.transform(), voxels * shortestVoxelEdge(grid.transform())),
                 Level{0.0, true}),
-          tiles(field.surfaceTiles(1 << 20, margin, interrupt)), cuts(findCuts(field, tiles, interrupt)),
+          tiles(field.surfaceTiles(1 << 20, margin, interrupt)), cuts(findCuts(field, tiles, 0.5, interrupt)),
           layout(makeLayout(tiles, cuts.signs, interrupt)),
           labels(labelVertices(layout, cuts.arrows, interrupt)) {}
 };

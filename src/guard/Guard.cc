@@ -1,0 +1,102 @@
+/// @file Guard.cc
+/// Rounds over the tiles that changed.
+#include "guard/Guard.h"
+
+#include "guard/BadTets.h"
+
+#include <utility>
+
+namespace vdbtet {
+
+namespace {
+
+class Guard {
+public:
+    Guard(const Field& field, double tau, const Vertices& vertices, const Guardable& products,
+          Interrupt& interrupt)
+        : mField(field), mVertices(vertices), mProducts(products), mInterrupt(interrupt) {
+        mThreshold.tau = tau;
+    }
+
+    Guarded run() {
+        Guarded guarded;
+        guarded.flagged.resize(mVertices.layout.surfaceTiles.size());
+        mThreshold.flagged = &guarded.flagged;
+        std::vector<TileRef> tiles(mVertices.layout.surfaceTiles.size());
+        for (std::size_t t = 0; t < tiles.size(); ++t) tiles[t] = TileRef(t);
+        while (true) {
+            const Flips flips = mProducts.flips.flips();
+            const std::vector<VertexRef> bad = verticesOfBadTets(mVertices, flips, tiles, mInterrupt);
+            VertexMasks changed(guarded.flagged.size());
+            std::int64_t added = 0;
+            for (const VertexRef& v : bad) {
+                if (guarded.flagged[v.tile][v.lattice].test(v.vertex)) continue;
+                guarded.flagged[v.tile][v.lattice].set(v.vertex);
+                changed[v.tile][v.lattice].set(v.vertex);
+                ++added;
+            }
+            if (added == 0 || mInterrupt.stopped()) return guarded;
+            guarded.count += added;
+            ++guarded.rounds;
+            makeAnew(changed);
+            if (mInterrupt.stopped()) return guarded;
+            tiles = near(changed);
+        }
+    }
+
+private:
+    std::vector<TileRef> near(const VertexMasks& changed) const {
+        return tilesNear(mVertices.layout, changed, mInterrupt);
+    }
+
+    /// @param changed  the vertices newly flagged; then also those that differ in label or destination, and
+    /// the lower ends of spines that are flipped another way
+    void makeAnew(VertexMasks& changed) {
+        const Layout& layout = mVertices.layout;
+        turnArrows(mField, layout, mThreshold, near(changed), mProducts.arrows, mInterrupt);
+        if (mInterrupt.stopped()) return;
+        Labels labels = labelVertices(layout, mProducts.arrows, mInterrupt);
+        if (mInterrupt.stopped()) return;
+        const VertexMasks& before = mProducts.labels.manifold;
+        for (std::size_t t = 0; t < before.size(); ++t) {
+            for (std::size_t l = 0; l < 2; ++l) changed[t][l] |= before[t][l] ^ labels.manifold[t][l];
+        }
+        std::swap(mProducts.labels, labels); // labels has the old ones now
+        const std::vector<TileRef> moved = near(changed);
+        Destinations destinations =
+            findGradientDestinations(mField, layout, mProducts.arrows, mProducts.labels, mThreshold, &moved,
+                                     &mProducts.destinations, mInterrupt);
+        if (mInterrupt.stopped()) return;
+        std::swap(mProducts.destinations, destinations);
+        for (const TileRef t : moved) markMoved(t, labels, destinations, changed);
+        mProducts.flips.choose(near(changed), changed, mInterrupt);
+    }
+
+    /// Mark the vertices of a tile that are elsewhere than they were.
+    void markMoved(TileRef t, const Labels& labels, const Destinations& before, VertexMasks& changed) const {
+        const Destinations& now = mProducts.destinations;
+        for (std::size_t l = 0; l < 2; ++l) {
+            const TileMask &was = labels.manifold[t][l], &is = mProducts.labels.manifold[t][l];
+            (was & is).forEach([&](int n) {
+                if (before.offsets[std::size_t(before.first[t][l] + was.rank(n))] !=
+                    now.offsets[std::size_t(now.first[t][l] + is.rank(n))])
+                    changed[t][l].set(n);
+            });
+        }
+    }
+
+    const Field& mField;
+    const Vertices& mVertices;
+    const Guardable& mProducts;
+    Interrupt& mInterrupt;
+    Threshold mThreshold;
+};
+
+} // namespace
+
+Guarded guardAngles(const Field& field, double tau, const Vertices& vertices, const Guardable& products,
+                    Interrupt& interrupt) {
+    return Guard(field, tau, vertices, products, interrupt).run();
+}
+
+} // namespace vdbtet
