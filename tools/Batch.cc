@@ -178,7 +178,7 @@ void Batch::finish(Running& running) {
     } else if (mSignals.first() != 0 || last.contains("cancelled")) {
         const int signal = last.contains("cancelled") ? last["cancelled"].get<int>() : mSignals.first();
         outcome.status = Status::Interrupted;
-        outcome.meshWritten = last.value("written", false);
+        outcome.meshWritten = last.is_object() && last.value("written", false);
         outcome.code = 128 + signal;
         log("fail", running.index, {{"error", fmt::format("interrupted (signal {})", signal)}});
     } else {

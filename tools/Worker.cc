@@ -96,7 +96,9 @@ bool Worker::receive(const std::function<void(const nlohmann::json&)>& handle) {
         std::memcpy(&length, mReceived.data() + at, sizeof length);
         if (mReceived.size() - at - sizeof length < length) break;
         const auto begin = mReceived.begin() + std::ptrdiff_t(at + sizeof length);
-        handle(nlohmann::json::from_cbor(begin, begin + std::ptrdiff_t(length)));
+        // A child that a damaged file has led astray may say anything.
+        const auto message = nlohmann::json::from_cbor(begin, begin + std::ptrdiff_t(length), true, false);
+        if (message.is_object() || message.is_array()) handle(message);
         at += sizeof length + length;
     }
     mReceived.erase(0, at);

@@ -77,7 +77,7 @@ class VdbTet(ToolTest):
 
     def test_usage_errors(self):
         for pattern, arguments in [
-            ("IN.vdb", []),
+            ("IN is required", []),
             ("OUT is missing", ["sphere.vdb"]),
             ("--nonsense", ["sphere.vdb", "o.vtu", "--nonsense"]),
             ("--voxels", ["sphere.vdb", "o.vtu", "-s", "1", "-v", "1"]),
