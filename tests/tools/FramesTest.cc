@@ -1,8 +1,8 @@
 // Lists of frames, and names with places for them.
 #include "support/Catch.h"
 
-#include "Frames.h"
 #include "UsageError.h"
+#include "batch/Frames.h"
 
 using Frames = std::vector<std::int64_t>;
 

@@ -2,7 +2,7 @@
 #include "support/Catch.h"
 #include "support/TempFolder.h"
 
-#include "Memory.h"
+#include "batch/Memory.h"
 
 #include <filesystem>
 #include <fstream>

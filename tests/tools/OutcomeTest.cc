@@ -1,7 +1,7 @@
 // What people are told of jobs.
 #include "support/Catch.h"
 
-#include "Outcome.h"
+#include "batch/Outcome.h"
 
 TEST_CASE("a child that ended without a word gets a line by its stage and end") {
     Worker::End end;

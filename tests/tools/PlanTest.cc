@@ -2,8 +2,8 @@
 #include "support/Catch.h"
 #include "support/TempFolder.h"
 
-#include "Plan.h"
 #include "UsageError.h"
+#include "batch/Plan.h"
 
 #include <filesystem>
 #include <fstream>

@@ -1,7 +1,7 @@
 // One number and one line for how far the work is.
 #include "support/Catch.h"
 
-#include "Progress.h"
+#include "batch/Progress.h"
 
 TEST_CASE("the progress of a job rises from 0 to 1 through its stages") {
     CommandLine line;

@@ -1,7 +1,7 @@
 // Child processes and what they tell.
 #include "support/Catch.h"
 
-#include "Worker.h"
+#include "process/Worker.h"
 
 #include <unistd.h>
 

@@ -1,12 +1,12 @@
 /// @file MeshJob.cc
 /// The library's parts, put together as the command line says.
-#include "MeshJob.h"
+#include "process/MeshJob.h"
 
-#include "Query.h"
-#include "ReadingLimits.h"
-#include "Reporter.h"
-#include "Signals.h"
 #include "Summary.h"
+#include "process/Query.h"
+#include "process/ReadingLimits.h"
+#include "process/Reporter.h"
+#include "process/Signals.h"
 #include "report/ReportPage.h"
 #include "surface/SurfaceVolume.h"
 

@@ -5,12 +5,12 @@
 /// killed, its memory is what it took, and what it did not finish leaves nothing.
 #pragma once
 
-#include "JobLog.h"
-#include "Outcome.h"
-#include "Plan.h"
-#include "Progress.h"
-#include "Signals.h"
-#include "Worker.h"
+#include "batch/JobLog.h"
+#include "batch/Outcome.h"
+#include "batch/Plan.h"
+#include "batch/Progress.h"
+#include "process/Signals.h"
+#include "process/Worker.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,6 @@
 /// @file Signals.cc
 /// Signal handlers that set a number.
-#include "Signals.h"
+#include "process/Signals.h"
 
 #include <atomic>
 #include <initializer_list>

@@ -1,10 +1,10 @@
 /// @file Batch.cc
 /// One loop that waits for children, signals and time.
-#include "Batch.h"
+#include "batch/Batch.h"
 
 #include "Console.h"
-#include "Memory.h"
-#include "MeshJob.h"
+#include "batch/Memory.h"
+#include "process/MeshJob.h"
 
 #include <vdbtet/Errors.h>
 

@@ -1,6 +1,6 @@
 /// @file Frames.cc
 /// Parsing by regular expressions: these are short texts.
-#include "Frames.h"
+#include "batch/Frames.h"
 
 #include "UsageError.h"
 

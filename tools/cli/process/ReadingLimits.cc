@@ -1,6 +1,6 @@
 /// @file ReadingLimits.cc
 /// From the size of the file.
-#include "ReadingLimits.h"
+#include "process/ReadingLimits.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,6 +1,6 @@
 /// @file Outcome.cc
 /// The closing table of a batch.
-#include "Outcome.h"
+#include "batch/Outcome.h"
 
 #include "Summary.h"
 

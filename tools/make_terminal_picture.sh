@@ -2,7 +2,7 @@
 # Draws docs/terminal.svg: vdb_tet at work on a sequence, and its closing table, as a terminal shows them. Needs
 # tmux, python3, and a build with the tests.
 #
-# usage: docs/terminal.sh [BUILD]   (default: build/release)
+# usage: tools/make_terminal_picture.sh [BUILD]   (default: build/release)
 set -eu
 cd "$(dirname "$0")/.."
 build=$(realpath "${1:-build/release}")

@@ -2,7 +2,7 @@
 /// What becomes of the jobs, for programs: a line of JSON for each event.
 #pragma once
 
-#include "Plan.h"
+#include "batch/Plan.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,13 +1,13 @@
 /// @file vdb_tet.cc
 /// The command-line tool: parse, plan, and have each mesh made by a child process.
-#include "Batch.h"
 #include "CommandLine.h"
 #include "Console.h"
 #include "Info.h"
-#include "Plan.h"
-#include "Query.h"
-#include "Signals.h"
 #include "UsageError.h"
+#include "batch/Batch.h"
+#include "batch/Plan.h"
+#include "process/Query.h"
+#include "process/Signals.h"
 
 #include <vdbtet/Errors.h>
 #include <vdbtet/GridFile.h>

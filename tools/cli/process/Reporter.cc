@@ -1,8 +1,8 @@
 /// @file Reporter.cc
 /// A few messages a second.
-#include "Reporter.h"
+#include "process/Reporter.h"
 
-#include "Signals.h"
+#include "process/Signals.h"
 
 void Reporter::start(const char* name) {
     if (mDepth++ > 0) return;

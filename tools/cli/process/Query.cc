@@ -1,8 +1,8 @@
 /// @file Query.cc
 /// Waits for the child's message, or a signal.
-#include "Query.h"
+#include "process/Query.h"
 
-#include "Outcome.h"
+#include "batch/Outcome.h"
 
 #include <vdbtet/Errors.h>
 

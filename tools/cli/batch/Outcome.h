@@ -2,8 +2,8 @@
 /// What became of the jobs, for people.
 #pragma once
 
-#include "Plan.h"
-#include "Worker.h"
+#include "batch/Plan.h"
+#include "process/Worker.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,6 @@
 /// @file Worker.cc
 /// fork(), a pipe, and messages in CBOR, which keeps names in any encoding, each after its length.
-#include "Worker.h"
+#include "process/Worker.h"
 
 #include <fcntl.h>
 #include <sys/resource.h>

@@ -3,11 +3,11 @@
 #include "Info.h"
 
 #include "Console.h"
-#include "Query.h"
-#include "ReadingLimits.h"
-#include "Reporter.h"
 #include "Summary.h"
 #include "UsageError.h"
+#include "process/Query.h"
+#include "process/ReadingLimits.h"
+#include "process/Reporter.h"
 
 #include <vdbtet/Errors.h>
 #include <vdbtet/GridFile.h>

@@ -1,6 +1,6 @@
 /// @file Memory.cc
 /// Reads what the kernel tells, of control groups of either version.
-#include "Memory.h"
+#include "batch/Memory.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -2,7 +2,7 @@
 /// A child process that works, and tells its parent by messages through a pipe.
 #pragma once
 
-#include "Signals.h"
+#include "process/Signals.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,6 @@
 /// @file JobLog.cc
 /// Lines by nlohmann-json, appended.
-#include "JobLog.h"
+#include "batch/JobLog.h"
 
 #include <vdbtet/Errors.h>
 

@@ -1,9 +1,9 @@
 /// @file Plan.cc
 /// Files x frames x grids.
-#include "Plan.h"
+#include "batch/Plan.h"
 
-#include "Frames.h"
 #include "UsageError.h"
+#include "batch/Frames.h"
 
 #include <vdbtet/MeshFile.h>
 

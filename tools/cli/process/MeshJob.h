@@ -7,7 +7,7 @@
 #pragma once
 
 #include "CommandLine.h"
-#include "Worker.h"
+#include "process/Worker.h"
 
 /// Mesh one grid of one file.
 /// @return an exit code; all else goes through the channel

@@ -2,7 +2,7 @@
 /// Tells the parent how far a job is, and the mesher when to stop.
 #pragma once
 
-#include "Worker.h"
+#include "process/Worker.h"
 
 #include <openvdb/util/NullInterrupter.h>
 

@@ -1,6 +1,6 @@
 /// @file Progress.cc
 /// Shares of stages, and a line on the terminal.
-#include "Progress.h"
+#include "batch/Progress.h"
 
 #include <fmt/format.h>
 

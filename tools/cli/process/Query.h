@@ -2,8 +2,8 @@
 /// One question about a file, answered by a child process, for reading a damaged file may crash.
 #pragma once
 
-#include "Signals.h"
-#include "Worker.h"
+#include "process/Signals.h"
+#include "process/Worker.h"
 
 #include <functional>
 #include <string>
