@@ -12,7 +12,8 @@ for option in "$@"; do
     --tests) packages="$packages catch2 python3" ;;
     --bench) packages="$packages libbenchmark-dev python3" ;;
     --ci)
-        packages="$packages clang-format-14 python3-vtk9 python3-h5py python3-meshio python3-gmsh tetgen"
+        packages="$packages clang-format-14 python3-vtk9 python3-h5py python3-meshio python3-gmsh tetgen
+            dpkg-dev man-db zsh fish"
         # Ubuntu has Chromium as a snap only; there what needs a browser is skipped.
         grep -qx 'ID=ubuntu' /etc/os-release || packages="$packages chromium chromium-driver"
         ;;
