@@ -159,9 +159,9 @@ TEST_CASE("where the surface is a plane the manifold vertices are those near eno
         for (std::size_t t = 0; t < stages.tiles.size(); ++t) {
             for (int lattice = 0; lattice < 2; ++lattice) {
                 for (int n = 0; n < TileMask::kSize; ++n) {
-                    const openvdb::Coord vertex =
-                        (stages.layout.surfaceTiles[t] << 3) + openvdb::Coord(n >> 6, n >> 3 & 7, n & 7);
-                    const openvdb::Vec3d at = 2.0 * vertex.asVec3d() + openvdb::Vec3d(lattice);
+                    const openvdb::Vec3d vertex =
+                        stages.layout.origin(TileRef(t)) + openvdb::Vec3d(n >> 6, n >> 3 & 7, n & 7);
+                    const openvdb::Vec3d at = 2.0 * vertex + openvdb::Vec3d(lattice);
                     const double fraction = height(at) / m;
                     if (greatestOf(at) > 12.0 || std::abs(std::abs(fraction) - 0.5) < 1e-5) continue;
                     const bool expected = std::abs(fraction) < 0.5;
