@@ -38,7 +38,9 @@ nlohmann::json ask(const std::string& path, const Signals& signals,
         ::ppoll(&file, 1, nullptr, &signals.whileWaiting());
         signals.check();
         if (signals.first() != 0) throw std::runtime_error("interrupted"); // which kills the child
-    } while (worker.receive([&](const nlohmann::json& received) { message = received; }));
+    } while (worker.receive([&](const nlohmann::json& received) {
+        if (!received.contains("stage")) message = received; // on the way, and no answer
+    }));
     if (message.is_null()) throw std::runtime_error(epitaph(path, "read", worker.end()));
     if (message.contains("error")) throw std::runtime_error(message["error"].get<std::string>());
     return message;

@@ -13,7 +13,7 @@
 int tellErrors(const Channel& channel, const std::function<void()>& work);
 
 /// @brief The parent's side: wait for the answer.
-/// @param answer  sends one message
+/// @param answer  sends one message, besides those of how far it is
 /// @throw std::runtime_error what the child says against @a path, or how it died
 nlohmann::json ask(const std::string& path, const Signals& signals,
                    const std::function<void(const Channel&)>& answer);
