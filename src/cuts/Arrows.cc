@@ -12,8 +12,8 @@ namespace {
 
 /// The L_A vertices whose edge in a direction has an end in the tile: one at 8 only where the edge leads
 /// back.
-std::array<PaddedMask, bcc::kDirections> edgesOfTile() {
-    std::array<PaddedMask, bcc::kDirections> edges;
+PaddedEdgeMasks edgesOfTile() {
+    PaddedEdgeMasks edges;
     for (int d = 0; d < bcc::kDirections; ++d) {
         const bcc::Step step = bcc::shortEdge(bcc::A, d);
         for (int x = 0; x < 8 - step.x; ++x) {
@@ -25,16 +25,24 @@ std::array<PaddedMask, bcc::kDirections> edgesOfTile() {
     return edges;
 }
 
-/// @return those of edgesOfTile() in @a direction that are cut.
-PaddedMask cutEdges(const PaddedMask& a, const PaddedMask& b, int direction) {
+/// @return those of edgesOfTile() in @a direction for whose ends, in rows of @a a and @a b, @a of(a, b) has a
+/// bit.
+template <typename Of>
+PaddedMask edgesByEnds(const PaddedMask& a, const PaddedMask& b, int direction, Of&& of) {
     static const auto kEdges = edgesOfTile();
     const bcc::Step step = bcc::shortEdge(bcc::A, direction);
     constexpr int kFirst = PaddedMask::bit(0, 0, -1) / PaddedMask::kRowBits;
     const std::uint16_t* far = b.rows + step.x * PaddedMask::kDim + step.y;
-    PaddedMask cut;
+    PaddedMask edges;
     for (int r = kFirst; r < PaddedMask::kRows; ++r)
-        cut.rows[r] = std::uint16_t((a.rows[r] ^ far[r] << -step.z) & kEdges[direction].rows[r]);
-    return cut;
+        edges.rows[r] = std::uint16_t(of(a.rows[r], far[r] << -step.z) & kEdges[direction].rows[r]);
+    return edges;
+}
+PaddedMask edgesWithOneEnd(const PaddedMask& a, const PaddedMask& b, int direction) {
+    return edgesByEnds(a, b, direction, [](int ownRow, int farRow) { return ownRow ^ farRow; });
+}
+PaddedMask edgesWithAnyEnd(const PaddedMask& a, const PaddedMask& b, int direction) {
+    return edgesByEnds(a, b, direction, [](int ownRow, int farRow) { return ownRow | farRow; });
 }
 
 /// What findCuts() makes for one tile.
@@ -57,29 +65,26 @@ public:
         mSampler->signs(tile, a, b);
         cuts.signs = {a.core(), b.core()};
 
-        std::array<PaddedMask, bcc::kDirections> cut, nearer;
-        std::size_t count = 0;
+        PaddedEdgeMasks cut, nearer;
+        bool any = false;
         for (int d = 0; d < bcc::kDirections; ++d) {
-            cut[d] = cutEdges(a, b, d);
-            count += std::size_t(cut[d].count());
+            cut[d] = edgesWithOneEnd(a, b, d);
+            any = any || cut[d].any();
             cuts.cutEdges += cut[d].core().count();
         }
-        if (count == 0) return cuts;
-
-        mEdges.resize(count);
-        ShortEdge* edge = mEdges.data();
-        for (int d = 0; d < bcc::kDirections; ++d) {
-            const bcc::Step step = bcc::shortEdge(bcc::A, d);
-            const int toB = PaddedMask::step(step.x, step.y, step.z);
-            cut[d].forEach([&](int n) {
-                *edge++ = {std::uint16_t(n), std::uint8_t(d),
-                           flagged[bcc::A].test(n) || flagged[bcc::B].test(n + toB)};
-            });
+        if (!any) return cuts;
+        if (flagged[bcc::A].any() || flagged[bcc::B].any()) {
+            PaddedEdgeMasks halved = cut, others = cut;
+            for (int d = 0; d < bcc::kDirections; ++d) {
+                const PaddedMask atEnds = edgesWithAnyEnd(flagged[bcc::A], flagged[bcc::B], d);
+                halved[d].intersect(atEnds);
+                others[d].remove(atEnds);
+            }
+            mSampler->nearerToA(tile, halved, 0.5, nearer);
+            mSampler->nearerToA(tile, others, tau, nearer);
+        } else {
+            mSampler->nearerToA(tile, cut, tau, nearer);
         }
-        mNearer.resize(count);
-        mSampler->nearerToA(tile, mEdges, tau, mNearer.data());
-        for (std::size_t i = 0; i < mEdges.size(); ++i)
-            nearer[mEdges[i].direction].set(mEdges[i].vertex, mNearer[i]);
         auto arrows = std::make_unique<TileArrows>();
         for (int d = 0; d < bcc::kDirections; ++d) {
             (*arrows)[bcc::A][d] = nearer[d].core();
@@ -95,8 +100,6 @@ public:
 
 private:
     std::unique_ptr<Field::Sampler> mSampler;
-    std::vector<ShortEdge> mEdges;
-    std::vector<std::uint8_t> mNearer; ///< of mEdges
 };
 
 } // namespace

@@ -28,28 +28,25 @@ public:
         for (const TileMask& mask : edges) count += std::size_t(mask.count());
         mEdges.resize(count);
         mCuts.resize(count);
+        const bool anyFlagged = flagged[bcc::A].any() || flagged[bcc::B].any();
         ShortEdge* edge = mEdges.data();
         for (int d = 0; d < bcc::kDirections; ++d) {
             const bcc::Step step = bcc::shortEdge(lattice, d);
             const int toEnd = PaddedMask::step(step.x, step.y, step.z);
             edges[d].forEach([&](int n) {
                 const int vertex = PaddedMask::bit(n);
-                const bool halved =
-                    flagged[lattice].test(vertex) || flagged[bcc::other(lattice)].test(vertex + toEnd);
+                const bool halved = anyFlagged && (flagged[lattice].test(vertex) ||
+                                                   flagged[bcc::other(lattice)].test(vertex + toEnd));
                 *edge++ = {std::uint16_t(vertex), std::uint8_t(d), halved};
-                mDistance[vertex] = 2.0f;
+                mChoice[vertex].distance = 2.0f;
             });
         }
         mSampler->cutPoints(tile, lattice, mEdges, tau, mCuts.data());
+        // Of directions that are tied the first.
         for (std::size_t i = 0; i < mEdges.size(); ++i) {
-            float& distance = mDistance[mEdges[i].vertex];
-            distance = std::min(distance, mCuts[i]);
-        }
-        // The first direction that is as near as the nearest: the last one that we come by.
-        for (std::size_t i = mEdges.size(); i-- > 0;) {
             Choice& choice = mChoice[mEdges[i].vertex];
             const Choice other{mCuts[i], mEdges[i].direction};
-            choice = mCuts[i] > mDistance[mEdges[i].vertex] + kTie ? choice : other;
+            choice = other.distance < choice.distance - kTie ? other : choice;
         }
     }
 
@@ -92,9 +89,8 @@ public:
 private:
     std::unique_ptr<Field::Sampler> mSampler;
     std::vector<ShortEdge> mEdges;
-    std::vector<float> mCuts;                         ///< of mEdges
-    std::array<float, PaddedMask::kSize> mDistance{}; ///< of vertices with edges, as the next
-    std::array<Choice, PaddedMask::kSize> mChoice{};
+    std::vector<float> mCuts;                        ///< of mEdges
+    std::array<Choice, PaddedMask::kSize> mChoice{}; ///< of vertices with edges
 
     std::vector<std::uint16_t> mFree; ///< the vertices that are not flagged
     std::vector<double> mReach;       ///< of mFree, as the next

@@ -1,10 +1,9 @@
 /// @file CutDistances.cc
-/// distanceToCut() in lanes: each goes through the steps of rootInUnitInterval() and stops by itself.
+/// Newton's method in lanes where an edge's cubic falls all the way; elsewhere one edge at a time.
 #include "field/CutDistances.h"
 
 #include "field/Root.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -14,137 +13,76 @@ namespace {
 
 constexpr int kLanes = CutEdges::kLanes;
 
-/// The diagonals of all lanes.
-struct Lanes {
-    double b0[kLanes], b1[kLanes], b2[kLanes], b3[kLanes];
-    double start = 0.0, slope[kLanes]; ///< the diagonal's parameter is start + slope * (fraction of the
-                                       ///< near part)
+/// More steps than a cubic needs that is nearly straight.
+constexpr int kNewtonSteps = 8;
 
-    VDBTET_KERNEL inline explicit Lanes(const CutEdges& edges) {
-        for (int i = 0; i < kLanes; ++i) {
-            const auto& p = edges.corners;
-            const double corners[8] = {p[0][i], p[1][i], p[2][i], p[3][i],
-                                       p[4][i], p[5][i], p[6][i], p[7][i]};
-            const Diagonal phi = Diagonal::of(corners);
-            b0[i] = phi.b0;
-            b1[i] = phi.b1;
-            b2[i] = phi.b2;
-            b3[i] = phi.b3;
-        }
-    }
-    VDBTET_KERNEL inline Diagonal diagonal(int i) const { return {b0[i], b1[i], b2[i], b3[i]}; }
-    VDBTET_KERNEL inline double evaluate(int i, double x) const { return diagonal(i)(start + slope[i] * x); }
-};
+/// The field on the part of each edge that its near end is the end of, as c0 + c1 x + c2 x^2 + c3 x^3 over
+/// [0, 1], positive at the near end.
+struct Cubics {
+    double c0[kLanes], c1[kLanes], c2[kLanes], c3[kLanes];
 
-/// What rootInUnitInterval() knows of each edge, the interval being the part at the near end. Short loops
-/// over all lanes: a processor looks ahead over a few of their rounds only.
-class Brackets {
-public:
-    /// @param near   the field at the near end
-    /// @param count  lanes beyond it are left alone
-    VDBTET_KERNEL inline Brackets(const Lanes& lanes, const double (&near)[kLanes], int count) {
+    VDBTET_KERNEL inline void set(const CutEdges& edges, bool nearIsB, const double (&reach)[kLanes]) {
         for (int i = 0; i < kLanes; ++i) {
-            // Of two signs that differ the near end's shall be the positive one.
-            const double side = near[i] >= 0.0 ? 1.0 : -1.0;
-            mSide[i] = side;
-            mFa[i] = side * near[i];
-            mFb[i] = side * lanes.evaluate(i, 1.0);
-        }
-        for (int i = 0; i < kLanes; ++i) {
-            // By the rule for ties the cut point may lie just beyond.
-            const double root = mFb[i] >= 0.0 ? 1.0 : 0.0;
-            mActive[i] = (mFb[i] < 0.0) & (mFa[i] != 0.0) & (i < count) ? 1 : 0;
-            mX[i] = mActive[i] != 0 ? 2.0 : root;
-            mA[i] = 0.0;
-            mB[i] = 1.0;
-            mWeightA[i] = 1.0;
-            mWeightB[i] = 1.0;
+            const double b0 = edges.b0[i], b1 = edges.b1[i], b2 = edges.b2[i], b3 = edges.b3[i];
+            // In powers of the fraction of the diagonal; then of that from its middle on, backwards.
+            const double p1 = b1 - 3.0 * b0, p2 = 3.0 * b0 - 2.0 * b1 + b2, p3 = (b1 - b2) + (b3 - b0);
+            const double q1 = -(p1 + p2 + 0.75 * p3), q2 = p2 + 1.5 * p3, q3 = -p3;
+            const double side = edges.near[i] >= 0.0 ? 1.0 : -1.0, half = 0.5 * reach[i];
+            c0[i] = side * edges.near[i];
+            c1[i] = side * half * (nearIsB ? q1 : p1);
+            c2[i] = side * half * half * (nearIsB ? q2 : p2);
+            c3[i] = side * half * half * half * (nearIsB ? q3 : p3);
         }
     }
 
-    VDBTET_KERNEL inline void solve(const Lanes& lanes, double (&root)[kLanes]) {
-        for (int iteration = 0; iteration < kRootIterations; ++iteration) {
-            step();
-            std::int64_t left = 0;
-            for (int i = 0; i < kLanes; ++i) left += mActive[i];
-            if (left == 0) break;
-            narrow(lanes);
-        }
-        for (int i = 0; i < kLanes; ++i) root[i] = mActive[i] != 0 ? 0.5 * (mA[i] + mB[i]) : mX[i];
+    VDBTET_KERNEL inline double operator()(int i, double x) const {
+        return ((c3[i] * x + c2[i]) * x + c1[i]) * x + c0[i];
     }
-
-private:
-    /// Go to the next guess; stop where that is near the last one, whatever the field is there.
-    VDBTET_KERNEL inline void step() {
-        for (int i = 0; i < kLanes; ++i) {
-            const double a = mA[i], b = mB[i], fa = mFa[i], fb = mFb[i];
-            const double secant = (a * fb - b * fa) / (fb - fa);
-            const double middle = 0.5 * (a + b);
-            const double x = ((secant > a) & (secant < b)) ? secant : middle;
-            const bool found = (std::abs(x - mX[i]) < kRootTolerance) | (b - a < kRootTolerance);
-            mX[i] = mActive[i] != 0 ? x : mX[i];
-            mActive[i] = found ? 0 : mActive[i];
-        }
+    VDBTET_KERNEL inline double slope(int i, double x) const {
+        return (3.0 * c3[i] * x + 2.0 * c2[i]) * x + c1[i];
     }
-    /// Replace an end of the bracket by the guess.
-    VDBTET_KERNEL inline void narrow(const Lanes& lanes) {
-        for (int i = 0; i < kLanes; ++i) {
-            const double x = mX[i], a = mA[i], b = mB[i];
-            const double fx = mSide[i] * lanes.evaluate(i, x);
-            mActive[i] = fx == 0.0 ? 0 : mActive[i];
-            // An end that stays twice has its weight halved.
-            const bool moveA = fx > 0.0;
-            const double lighterA = mWeightA[i] * mFa[i], lighterB = mWeightB[i] * mFb[i];
-            mFa[i] = moveA ? fx : lighterA;
-            mFb[i] = moveA ? lighterB : fx;
-            mWeightA[i] = moveA ? 1.0 : 0.5;
-            mWeightB[i] = moveA ? 0.5 : 1.0;
-            // Selects from a and b would become conditional stores.
-            const double low = moveA ? x : 0.0, high = moveA ? 1.0 : x;
-            mA[i] = low > a ? low : a;
-            mB[i] = high < b ? high : b;
-        }
+    /// Whether the Bernstein coefficients of the slope are negative, so that it is everywhere.
+    VDBTET_KERNEL inline bool falls(int i) const {
+        return (c1[i] < 0.0) & (c1[i] + c2[i] < 0.0) & (c1[i] + 2.0 * c2[i] + 3.0 * c3[i] < 0.0);
     }
-
-    double mA[kLanes], mB[kLanes], mFa[kLanes], mFb[kLanes];
-    double mWeightA[kLanes], mWeightB[kLanes]; ///< of the field at an end that stays
-    double mSide[kLanes];                      ///< the sign of the field at the near end
-    double mX[kLanes];                         ///< the last guess, in the end the root
-    std::int64_t mActive[kLanes];              ///< 0 or 1, as wide as a double
 };
 
 } // namespace
 
-std::uint32_t cutsInFirstPart(const CutEdges& edges, Isa isa) {
-    std::uint32_t result = 0;
-    runOn(isa, [&]() VDBTET_KERNEL {
-        const Lanes lanes(edges);
-        std::int64_t first[kLanes];
-        for (int i = 0; i < kLanes; ++i) {
-            const Diagonal phi = lanes.diagonal(i);
-            const double near = phi.b0, far = phi(1.0);
-            const double middle = phi(near >= 0.0 ? edges.tau[i] : 1.0 - edges.tau[i]);
-            const std::int64_t tie = std::abs(middle) <= kMiddle * std::abs(far - near) ? 1 : 0,
-                               nearInside = near >= 0.0 ? 1 : 0, middleInside = middle >= 0.0 ? 1 : 0;
-            first[i] = tie | (nearInside ^ middleInside);
-        }
-        for (int i = 0; i < kLanes; ++i) result |= std::uint32_t(first[i]) << i;
-    });
-    return edges.full() ? result : result & ((std::uint32_t(1) << edges.count) - 1);
-}
-
 void distancesToCuts(const CutEdges& edges, bool nearIsB, float* distance, Isa isa) {
+    Cubics phi;
+    double reach[kLanes], far[kLanes], root[kLanes];
+    std::int64_t open[kLanes], steep[kLanes]; // 0 or 1, as wide as a double
     runOn(isa, [&]() VDBTET_KERNEL {
-        Lanes lanes(edges);
-        lanes.start = nearIsB ? 1.0 : 0.0;
-        double reach[kLanes], root[kLanes];
+        for (int i = 0; i < kLanes; ++i) reach[i] = edges.near[i] >= 0.0 ? edges.tau[i] : 1.0 - edges.tau[i];
+        phi.set(edges, nearIsB, reach);
         for (int i = 0; i < kLanes; ++i) {
-            reach[i] = edges.near[i] >= 0.0 ? edges.tau[i] : 1.0 - edges.tau[i];
-            lanes.slope[i] = nearIsB ? -reach[i] : reach[i];
+            const double near = phi.c0[i];
+            far[i] = phi(i, 1.0);
+            // By the rule for ties the cut point may lie just beyond.
+            const bool cut = (near > 0.0) & (far[i] < 0.0) & (i < edges.count);
+            open[i] = cut ? 1 : 0;
+            steep[i] = phi.falls(i) ? 1 : 0;
+            root[i] = cut ? near / (near - far[i]) : near > 0.0 ? 1.0 : 0.0;
         }
-        Brackets(lanes, edges.near, edges.count).solve(lanes, root);
-        for (int i = 0; i < edges.count; ++i) distance[i] = float(reach[i] * root[i]);
+        for (int step = 0; step < kNewtonSteps; ++step) {
+            std::int64_t left = 0;
+            for (int i = 0; i < kLanes; ++i) {
+                const double x = root[i], to = x - phi(i, x) / phi.slope(i, x);
+                const double low = to > 0.0 ? to : 0.0, next = low < 1.0 ? low : 1.0;
+                const std::int64_t going = open[i] & steep[i];
+                root[i] = going != 0 ? next : x;
+                open[i] = (going != 0) & (std::abs(next - x) < kRootTolerance) ? 0 : open[i];
+                left += open[i] & steep[i];
+            }
+            if (left == 0) break;
+        }
     });
+    for (int i = 0; i < edges.count; ++i) {
+        if (open[i] != 0)
+            root[i] = rootInUnitInterval(phi.c0[i], far[i], [&](double x) { return phi(i, x); });
+        distance[i] = float(reach[i] * root[i]);
+    }
 }
 
 } // namespace vdbtet

@@ -5,25 +5,27 @@
 #include "field/Diagonal.h"
 #include "simd/Isa.h"
 
-#include <cstdint>
-
 namespace vdbtet {
 
-/// A batch of cut edges: the corner values of their cubes, each from the edge's L_A end as Diagonal::of()
-/// wants them.
+/// A batch of cut edges, each as its Diagonal from its L_A end.
 struct CutEdges {
     static constexpr int kLanes = 32;
 
     int count = 0;
-    double corners[8][kLanes] = {};
+    double b0[kLanes] = {}, b1[kLanes] = {}, b2[kLanes] = {}, b3[kLanes] = {};
     double near[kLanes] = {}; ///< the field at the end that the cut point is nearer to
     double tau[kLanes] = {};  ///< the end inside is the nearer one up to this fraction of the edge
 
+    void add(const Diagonal& phi, double nearValue, double ownTau) {
+        b0[count] = phi.b0;
+        b1[count] = phi.b1;
+        b2[count] = phi.b2;
+        b3[count] = phi.b3;
+        near[count] = nearValue;
+        tau[count++] = ownTau;
+    }
     bool full() const { return count == kLanes; }
 };
-
-/// @return the edges, by bit, of which cutInFirstPart() is true, the first end being that of L_A.
-std::uint32_t cutsInFirstPart(const CutEdges& edges, Isa isa);
 
 /// @brief distanceToCut() of the edges.
 /// @param nearIsB   whether the near ends are those of L_B

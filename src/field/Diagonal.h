@@ -6,20 +6,20 @@
 
 namespace vdbtet {
 
-/// The field along the line from a corner of a voxel-centred cube to its centre, in the cubic's Bernstein
-/// form over the whole diagonal.
+/// The field along the line from a corner of a voxel-centred cube to its centre: at a fraction s of the whole
+/// diagonal it is b0 (1-s)^3 + b1 s (1-s)^2 + b2 s^2 (1-s) + b3 s^3.
 struct Diagonal {
     double b0, b1, b2, b3;
 
     /// @param p  the eight corner values, p[4i+2j+k] at corner (i,j,k); the line starts at p[0]
-    VDBTET_KERNEL static inline Diagonal of(const double (&p)[8]) {
-        return {p[0], (p[1] + p[2] + p[4]) / 3.0, (p[3] + p[5] + p[6]) / 3.0, p[7]};
+    static Diagonal of(const double (&p)[8]) {
+        return {p[0], p[1] + p[2] + p[4], p[3] + p[5] + p[6], p[7]};
     }
 
     /// @param t  0 at the corner, 1 at the centre
-    VDBTET_KERNEL inline double operator()(double t) const {
+    double operator()(double t) const {
         const double s = 0.5 * t, r = 1.0 - s;
-        return r * r * (r * b0 + 3.0 * s * b1) + s * s * (3.0 * r * b2 + s * b3);
+        return r * r * (r * b0 + s * b1) + s * s * (r * b2 + s * b3);
     }
 };
 

@@ -24,8 +24,10 @@ using TileSigns = std::array<TileMask, 2>;
 
 /// For each direction the vertices of a tile that have some property along the short edge that way.
 using EdgeMasks = std::array<TileMask, bcc::kDirections>;
+/// The same of the vertices in and around a tile.
+using PaddedEdgeMasks = std::array<PaddedMask, bcc::kDirections>;
 
-/// A short edge from a vertex of some lattice in or around a tile.
+/// A short edge from a vertex of some lattice of a tile.
 struct ShortEdge {
     std::uint16_t vertex; ///< its PaddedMask::bit()
     std::uint8_t direction;
@@ -67,15 +69,16 @@ public:
 
         /// @brief Decide which ends of cut short edges are the nearer ones to their cut points.
         /// @param edges   from L_A vertices at 0 to 8 to L_B vertices at -1 to 7 of the other sign
-        /// @param tau     the end inside is the nearer one up to this fraction of an edge; 1/2 of halved ones
-        /// @param nearer  receives for each edge 1 if the L_A end is the nearer one, also on a tie; else 0
-        virtual void nearerToA(const openvdb::Coord& tile, const std::vector<ShortEdge>& edges, double tau,
-                               std::uint8_t* nearer) = 0;
+        /// @param tau     the end inside is the nearer one up to this fraction of an edge
+        /// @param nearer  receives, beside what is there, the edges whose L_A end is the nearer one, or that
+        /// are tied
+        virtual void nearerToA(const openvdb::Coord& tile, const PaddedEdgeMasks& edges, double tau,
+                               PaddedEdgeMasks& nearer) = 0;
 
         /// @brief Find cut points from their nearer ends.
         /// @param lattice   that of the nearer ends
         /// @param edges     from the tile's own vertices
-        /// @param tau       as above
+        /// @param tau       as above; 1/2 of halved edges
         /// @param distance  receives for each edge the distance of its cut point as a fraction of the edge,
         /// in [0, tau] from an end inside, in [0, 1 - tau] from one outside
         virtual void cutPoints(const openvdb::Coord& tile, bcc::Lattice lattice,

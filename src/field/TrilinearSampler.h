@@ -37,13 +37,16 @@ public:
         }
     }
 
-    void nearerToA(const openvdb::Coord& tile, const std::vector<ShortEdge>& edges, double tau,
-                   std::uint8_t* nearer) override {
+    void nearerToA(const openvdb::Coord& tile, const PaddedEdgeMasks& edges, double tau,
+                   PaddedEdgeMasks& nearer) override {
         load(tile);
-        for (const ShortEdge& e : edges) {
-            const openvdb::Vec3d from = position(tile, e.vertex, 0.0), edge = vectorOf(e);
-            const double first = phi(from), reach = reachOf(first, e.halved ? 0.5 : tau);
-            *nearer++ = cutInFirstPart(first, phi(from + reach * edge), phi(from + edge));
+        for (int d = 0; d < bcc::kDirections; ++d) {
+            const openvdb::Vec3d edge(bcc::kShortEdges[d]);
+            edges[d].forEach([&](int n) {
+                const openvdb::Vec3d from = position(tile, n, 0.0);
+                const double first = phi(from), reach = reachOf(first, tau);
+                nearer[d].set(n, cutInFirstPart(first, phi(from + reach * edge), phi(from + edge)));
+            });
         }
     }
 
@@ -51,7 +54,8 @@ public:
                    double tau, float* distance) override {
         load(tile);
         for (const ShortEdge& e : edges) {
-            const openvdb::Vec3d from = position(tile, e.vertex, 0.5 * lattice), edge = vectorOf(e);
+            const openvdb::Vec3d from = position(tile, e.vertex, 0.5 * lattice),
+                                 edge(bcc::kShortEdges[e.direction]);
             const double near = phi(from);
             *distance++ = distanceToCut(near, reachOf(near, e.halved ? 0.5 : tau),
                                         [&](double s) { return phi(from + s * edge); });
@@ -78,10 +82,6 @@ private:
         return openvdb::Vec3d(8.0 * tile.x() + PaddedMask::x(n) + shift,
                               8.0 * tile.y() + PaddedMask::y(n) + shift,
                               8.0 * tile.z() + PaddedMask::z(n) + shift);
-    }
-
-    static openvdb::Vec3d vectorOf(const ShortEdge& e) {
-        return openvdb::Vec3d(bcc::kShortEdges[e.direction]);
     }
 
     /// Copy the voxels around a tile, if they are not so many that looking some up is cheaper.

@@ -3,8 +3,11 @@
 #include "field/VoxelBlock.h"
 
 #include "field/Diagonal.h"
+#include "field/Root.h"
 
+#include <algorithm>
 #include <cstring>
+#include <type_traits>
 
 namespace vdbtet {
 
@@ -27,21 +30,38 @@ VDBTET_KERNEL inline std::uint16_t insideBits(const double* values) {
     return std::uint16_t(bits[0] | bits[1] | bits[2] | bits[3]);
 }
 
-/// The offsets from a voxel to the corners of the cube on its side in a direction.
-struct CornerOffsets {
-    int of[bcc::kDirections][8];
+/// The field on the short edge from a voxel in a direction, known to the compiler, and so are the voxels'
+/// places.
+template <int kDirection>
+inline Diagonal diagonalAt(const double* voxel) {
+    constexpr int x = PaddedMask::step(bcc::sign(kDirection, 0), 0, 0),
+                  y = PaddedMask::step(0, bcc::sign(kDirection, 1), 0), z = bcc::sign(kDirection, 2);
+    return Diagonal::of(
+        {voxel[0], voxel[z], voxel[y], voxel[y + z], voxel[x], voxel[x + z], voxel[x + y], voxel[x + y + z]});
+}
 
-    constexpr CornerOffsets() : of() {
-        for (int d = 0; d < bcc::kDirections; ++d) {
-            for (int corner = 0; corner < 8; ++corner) {
-                of[d][corner] =
-                    PaddedMask::step((corner >> 2) * bcc::sign(d, 0), (corner >> 1 & 1) * bcc::sign(d, 1),
-                                     (corner & 1) * bcc::sign(d, 2));
-            }
-        }
+/// Call @a work with a direction as a constant.
+template <typename Work>
+decltype(auto) withDirection(int direction, Work&& work) {
+    switch (direction) {
+    case 0:
+        return work(std::integral_constant<int, 0>());
+    case 1:
+        return work(std::integral_constant<int, 1>());
+    case 2:
+        return work(std::integral_constant<int, 2>());
+    case 3:
+        return work(std::integral_constant<int, 3>());
+    case 4:
+        return work(std::integral_constant<int, 4>());
+    case 5:
+        return work(std::integral_constant<int, 5>());
+    case 6:
+        return work(std::integral_constant<int, 6>());
+    default:
+        return work(std::integral_constant<int, 7>());
     }
-};
-constexpr CornerOffsets kCorners;
+}
 
 } // namespace
 
@@ -70,13 +90,6 @@ void VoxelBlock::load(const std::array<const T*, 27>& leaves, const Level& level
 template void VoxelBlock::load(const std::array<const float*, 27>&, const Level&);
 template void VoxelBlock::load(const std::array<const double*, 27>&, const Level&);
 
-void VoxelBlock::addEdge(int n, int direction, double tau) {
-    const auto& offsets = kCorners.of[direction];
-    mEdges.tau[mEdges.count] = tau;
-    double* corner = &mEdges.corners[0][mEdges.count++];
-    for (int i = 0; i < 8; ++i) corner[i * CutEdges::kLanes] = mPhi[n + offsets[i]];
-}
-
 void VoxelBlock::signs(PaddedMask& a, PaddedMask& b) const {
     runOn(mIsa, [&]() VDBTET_KERNEL {
         for (int r = 0; r < PaddedMask::kRows; ++r)
@@ -102,13 +115,24 @@ void VoxelBlock::signs(PaddedMask& a, PaddedMask& b) const {
     });
 }
 
-void VoxelBlock::nearerToA(const std::vector<ShortEdge>& edges, double tau, std::uint8_t* nearer) {
-    for (std::size_t i = 0; i < edges.size();) {
-        mEdges.count = 0;
-        for (; i < edges.size() && !mEdges.full(); ++i)
-            addEdge(edges[i].vertex, edges[i].direction, edges[i].halved ? 0.5 : tau);
-        const std::uint32_t first = cutsInFirstPart(mEdges, mIsa);
-        for (int lane = 0; lane < mEdges.count; ++lane) *nearer++ = first >> lane & 1;
+void VoxelBlock::nearerToA(const PaddedEdgeMasks& edges, double tau, PaddedEdgeMasks& nearer) const {
+    // By whether the L_A end is inside: what the diagonal's coefficients weigh where the first part ends.
+    double weights[2][4];
+    for (int isInside = 0; isInside < 2; ++isInside) {
+        const double s = 0.5 * (isInside ? tau : 1.0 - tau), r = 1.0 - s;
+        const double all[4] = {r * r * r, r * r * s, r * s * s, s * s * s};
+        std::copy_n(all, 4, weights[isInside]);
+    }
+    for (int d = 0; d < bcc::kDirections; ++d) {
+        withDirection(d, [&](auto direction) {
+            edges[d].forEach([&](int n) {
+                const Diagonal phi = diagonalAt<direction>(mPhi + n);
+                const double(&w)[4] = weights[phi.b0 >= 0.0];
+                const double middle = (w[0] * phi.b0 + w[1] * phi.b1) + (w[2] * phi.b2 + w[3] * phi.b3),
+                             centre = 0.125 * ((phi.b0 + phi.b1) + (phi.b2 + phi.b3));
+                nearer[d].set(n, cutInFirstPart(phi.b0, middle, centre));
+            });
+        });
     }
 }
 
@@ -119,16 +143,13 @@ void VoxelBlock::cutPoints(bcc::Lattice lattice, const std::vector<ShortEdge>& e
         for (; i < edges.size() && !mEdges.full(); ++i) {
             const int n = edges[i].vertex, direction = edges[i].direction;
             const double own = edges[i].halved ? 0.5 : tau;
-            if (lattice == bcc::A) {
-                mEdges.near[mEdges.count] = mPhi[n];
-                addEdge(n, direction, own);
-            } else {
-                // From its L_A end the edge runs the opposite way. The centre's value is summed in the order
-                // of signs(): else its sign could differ.
-                const bcc::Step step = bcc::shortEdge(bcc::B, direction);
-                mEdges.near[mEdges.count] = centre(n);
-                addEdge(n + PaddedMask::step(step.x, step.y, step.z), bcc::opposite(direction), own);
-            }
+            // From its L_A end the edge runs the opposite way. The centre's value is summed in the order of
+            // signs(): else its sign could differ.
+            const int back = lattice == bcc::A ? direction : bcc::opposite(direction);
+            const bcc::Step step = bcc::shortEdge(bcc::B, direction);
+            const int voxel = lattice == bcc::A ? n : n + PaddedMask::step(step.x, step.y, step.z);
+            const double near = lattice == bcc::A ? mPhi[n] : centre(n);
+            mEdges.add(withDirection(back, [&](auto d) { return diagonalAt<d>(mPhi + voxel); }), near, own);
         }
         distancesToCuts(mEdges, lattice == bcc::B, distance, mIsa);
         distance += mEdges.count;
@@ -137,7 +158,8 @@ void VoxelBlock::cutPoints(bcc::Lattice lattice, const std::vector<ShortEdge>& e
 
 double VoxelBlock::centre(int n) const {
     double p[8];
-    for (int corner = 0; corner < 8; ++corner) p[corner] = mPhi[n + kCorners.of[7][corner]];
+    for (int corner = 0; corner < 8; ++corner)
+        p[corner] = mPhi[n + PaddedMask::step(corner >> 2, corner >> 1 & 1, corner & 1)];
     return centreValue(p);
 }
 

@@ -26,7 +26,7 @@ public:
     void load(const std::array<const T*, 27>& leaves, const Level& level);
 
     void signs(PaddedMask& a, PaddedMask& b) const;
-    void nearerToA(const std::vector<ShortEdge>& edges, double tau, std::uint8_t* nearer);
+    void nearerToA(const PaddedEdgeMasks& edges, double tau, PaddedEdgeMasks& nearer) const;
     void cutPoints(bcc::Lattice lattice, const std::vector<ShortEdge>& edges, double tau, float* distance);
 
     /// @return the field at a vertex of the tile, by its PaddedMask::bit().
@@ -63,9 +63,6 @@ public:
     }
 
 private:
-    /// Add the edge from voxel @a n in @a direction to mEdges.
-    void addEdge(int n, int direction, double tau);
-
     /// The field at the centre of the cube whose lowest voxel is @a n: at that vertex of L_B.
     double centre(int n) const;
 

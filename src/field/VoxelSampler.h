@@ -25,8 +25,8 @@ public:
         mBlock.signs(a, b);
     }
 
-    void nearerToA(const openvdb::Coord& tile, const std::vector<ShortEdge>& edges, double tau,
-                   std::uint8_t* nearer) override {
+    void nearerToA(const openvdb::Coord& tile, const PaddedEdgeMasks& edges, double tau,
+                   PaddedEdgeMasks& nearer) override {
         load(tile);
         mBlock.nearerToA(edges, tau, nearer);
     }
@@ -57,6 +57,7 @@ public:
 
 private:
     using ValueT = typename GridT::ValueType;
+    using ParentT = typename GridT::TreeType::RootNodeType::ChildNodeType::ChildNodeType; ///< of leaves
 
     /// Copy the tile's voxels and a border of one from the leaves.
     void load(const openvdb::Coord& tile) {
@@ -64,10 +65,14 @@ private:
         mLoaded = true;
         mTile = tile;
         std::array<const ValueT*, 27> leaves;
+        // Most leaves around are in the same node: it is asked once.
+        const openvdb::Coord own(8 * tile.x(), 8 * tile.y(), 8 * tile.z());
+        const auto* node = mAccessor.template probeConstNode<ParentT>(own);
         for (int slot = 0; slot < 27; ++slot) {
-            const openvdb::Coord origin(8 * (tile.x() + slot / 9 - 1), 8 * (tile.y() + slot / 3 % 3 - 1),
-                                        8 * (tile.z() + slot % 3 - 1));
-            if (const auto* leaf = mAccessor.probeConstLeaf(origin)) {
+            const openvdb::Coord origin =
+                own.offsetBy(8 * (slot / 9 - 1), 8 * (slot / 3 % 3 - 1), 8 * (slot % 3 - 1));
+            const bool inNode = node && (origin & ~(int(ParentT::DIM) - 1)) == node->origin();
+            if (const auto* leaf = inNode ? node->probeConstLeaf(origin) : mAccessor.probeConstLeaf(origin)) {
                 leaves[slot] = leaf->buffer().data();
             } else {
                 leaves[slot] = constantLeaf(slot, mAccessor.getValue(origin));

@@ -113,26 +113,35 @@ TEST_CASE("sampling voxels and sampling points agree", "[field]") {
         voxels.signs(*it, a, b);
         points.signs(*it, a2, b2);
         REQUIRE((a.core() == a2.core() && b.core() == b2.core()));
+        PaddedEdgeMasks cut, halved, nearer, nearer2;
+        for (int d = 0; d < bcc::kDirections; ++d) {
+            const bcc::Step step = bcc::shortEdge(bcc::A, d);
+            for (int n = 0; n < TileMask::kSize; ++n) {
+                const int vertex = PaddedMask::bit(n);
+                if (a.test(vertex) != b.test(vertex + PaddedMask::step(step.x, step.y, step.z)))
+                    (n % 3 == 0 ? halved : cut)[d].set(vertex);
+            }
+        }
+        for (Field::Sampler* sampler :
+             {static_cast<Field::Sampler*>(&voxels), static_cast<Field::Sampler*>(&points)}) {
+            PaddedEdgeMasks& found = sampler == &voxels ? nearer : nearer2;
+            sampler->nearerToA(*it, cut, tau, found);
+            sampler->nearerToA(*it, halved, 0.5, found);
+        }
         std::vector<ShortEdge> edges[2]; // by the lattice of the nearer end
         for (int d = 0; d < bcc::kDirections; ++d) {
             const bcc::Step step = bcc::shortEdge(bcc::A, d);
             const int toB = PaddedMask::step(step.x, step.y, step.z);
-            std::vector<ShortEdge> cut;
-            for (int n = 0; n < TileMask::kSize; ++n) {
-                const int vertex = PaddedMask::bit(n);
-                if (a.test(vertex) != b.test(vertex + toB))
-                    cut.push_back({std::uint16_t(vertex), std::uint8_t(d), n % 3 == 0});
+            for (const auto* some : {&cut, &halved}) {
+                (*some)[d].forEach([&](int n) {
+                    const bool isNearer = nearer[d].test(n);
+                    REQUIRE(isNearer == nearer2[d].test(n));
+                    edges[isNearer ? bcc::A : bcc::B].push_back(
+                        {std::uint16_t(isNearer ? n : n + toB), std::uint8_t(isNearer ? d : bcc::opposite(d)),
+                         some == &halved});
+                    ++cuts;
+                });
             }
-            std::vector<std::uint8_t> nearer(cut.size()), nearer2(cut.size());
-            voxels.nearerToA(*it, cut, tau, nearer.data());
-            points.nearerToA(*it, cut, tau, nearer2.data());
-            REQUIRE(nearer == nearer2);
-            for (size_t i = 0; i < cut.size(); ++i) {
-                const ShortEdge back{std::uint16_t(cut[i].vertex + toB), std::uint8_t(bcc::opposite(d)),
-                                     cut[i].halved};
-                nearer[i] ? edges[bcc::A].push_back(cut[i]) : edges[bcc::B].push_back(back);
-            }
-            cuts += cut.size();
         }
         for (bcc::Lattice lattice : {bcc::A, bcc::B}) {
             // A sampler is asked for edges from the tile's own vertices.
