@@ -4,6 +4,7 @@
 
 #include <vdbtet/Errors.h>
 
+#include <cmath>
 #include <sstream>
 
 namespace vdbtet {
@@ -15,6 +16,14 @@ std::string quoted(const openvdb::GridBase& grid) {
 Level chooseLevel(const openvdb::GridBase& grid, double background, const Options& options, Report& report) {
     const openvdb::GridClass gridClass = grid.getGridClass();
     const bool levelSet = gridClass == openvdb::GRID_LEVEL_SET, fog = gridClass == openvdb::GRID_FOG_VOLUME;
+    const bool replaced = !std::isfinite(background) && options.nan != Nan::Error;
+    if (replaced && options.nan == Nan::Inside)
+        throw UnboundedInside("the background is NaN or infinite, and such values are to be inside, so the "
+                              "inside has no end; mesh them as outside");
+    if (replaced && !levelSet && !fog && (!options.isovalue || options.inside == Inside::Automatic)) {
+        throw BadValue("the background is NaN or infinite, and no class of the grid tells what is inside; "
+                       "give the isovalue and the side of it, or set the class");
+    }
     Level level;
     level.isovalue = options.isovalue.value_or(levelSet || (!fog && background > 0.0) ? 0.0 : 0.5);
 
@@ -35,7 +44,7 @@ Level chooseLevel(const openvdb::GridBase& grid, double background, const Option
     report.isovalue = level.isovalue;
     report.inside = level.insideIsBelow ? Inside::Below : Inside::Above;
     report.insideRule = rule.str();
-    if (level.phi(background) >= 0.0) {
+    if (!replaced && level.phi(background) >= 0.0) {
         std::ostringstream message;
         message << "the background value " << background
                 << " lies inside, so the inside has no end: " << report.insideRule

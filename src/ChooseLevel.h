@@ -17,6 +17,7 @@ std::string quoted(const openvdb::GridBase& grid);
 /// @brief What kind of field the grid holds: the isovalue, and on which side of it the inside lies.
 /// @param report  gets them, too
 /// @throw UnboundedInside
+/// @throw BadValue where a background that is NaN or infinite is all that could tell the side
 Level chooseLevel(const openvdb::GridBase& grid, double background, const Options& options, Report& report);
 
 /// @throw NoSurface where no value is inside

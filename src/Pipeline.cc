@@ -2,6 +2,7 @@
 /// The stages in order (paper, Algorithm 1).
 #include "Pipeline.h"
 
+#include "Limits.h"
 #include "Stage.h"
 #include "cuts/Arrows.h"
 #include "destinations/Destinations.h"
@@ -85,6 +86,8 @@ bool mesh(const Field& field, const Frame& frame, const Options& options, int ma
     auto tiles =
         stage("tiles", [&] { return field.surfaceTiles(options.maxSurfaceTiles, margin, interrupt); });
     if (report.cancelled) return true;
+    report.memory = report.gridMemory + estimateMemory(std::int64_t(tiles.size()), options);
+    requireMemory(report.memory, options);
     const bool isThird = options.tiger == 3;
     const double tau = isThird ? options.tau.value_or(kDefaultTau) : 0.5;
     std::optional<Cuts> cuts =
@@ -97,6 +100,7 @@ bool mesh(const Field& field, const Frame& frame, const Options& options, int ma
     report.cutEdges = cuts->arrows.cutEdges;
     if (report.cutEdges == 0)
         throw NoSurface("the shape slips between the lattice points; use a finer spacing");
+    requireFewTets(layout, options);
     Labels labels = stage("labels", [&] { return labelVertices(layout, cuts->arrows, interrupt); });
     if (report.cancelled) return true;
     Destinations destinations = stage("destinations", [&] {
@@ -179,6 +183,7 @@ bool mesh(const Field& field, const Frame& frame, const Options& options, int ma
         throw NoSurface(
             "the shape is thinner than the lattice can hold, and nothing of it is left; use a finer spacing");
     }
+    requireFewTets(report.tets, options);
     // Theorem 3; where Algorithm 5 met no conflict the resolution sufficed. Version 3 has no better bound
     // that holds whatever the surface.
     const bool resolved = options.tiger == 2 && flips.conflicts == 0;

@@ -7,8 +7,8 @@
 #include "ChooseLevel.h"
 #include "Pipeline.h"
 #include "Stage.h"
+#include "field/FiniteGrid.h"
 #include "field/GridField.h"
-#include "field/ValueRange.h"
 
 #include <cmath>
 
@@ -36,6 +36,9 @@ void checkOptions(const Options& options) {
     if (options.maxSurfaceTiles < 1 || options.maxSurfaceTiles > kMostSurfaceTiles) {
         throw BadOption("the limit on surface tiles must be from 1 to 2^30");
     }
+    if (options.maxTets < 1) throw BadOption("the limit on tets must be at least 1");
+    if (options.maxMemory && *options.maxMemory < 1)
+        throw BadOption("the limit on memory must be a positive number of bytes");
 }
 
 template <typename GridT>
@@ -54,10 +57,13 @@ Report meshGrid(const GridT& grid, MeshSink& sink, const Options& options,
     }
     const Level level = chooseLevel(grid, double(grid.background()), options, report);
     Interrupt interrupt(interrupter);
-    const ValueRange values = runStage("scan", interrupt, report, [&] { return scanValues(grid); });
+    const FiniteGrid<GridT> finite = runStage(
+        "scan", interrupt, report, [&] { return FiniteGrid<GridT>(grid, level, options.nan, interrupt); });
     if (report.cancelled) return report;
-    requireInside(values, level);
-    const GridField<GridT> field(grid, frame, level);
+    requireInside(finite.values(), level);
+    report.badValues = finite.replaced();
+    report.gridMemory = finite.memory();
+    const GridField<GridT> field(finite.grid(), frame, level);
     runPipeline(field, frame, options, sink, interrupt, report);
     return report;
 }

@@ -13,7 +13,7 @@ namespace vdbtet {
 
 /// @brief Make a grid of signed distances to the surface that volumeToTets() meshes, for a FieldSampler.
 /// @param grid       a FloatGrid or DoubleGrid, such as a fog volume or a level set of a narrower band
-/// @param options    as for volumeToTets(); only isovalue and inside matter
+/// @param options    as for volumeToTets(); only isovalue, inside and nan matter
 /// @param halfWidth  world length: deeper inside the values are -halfWidth. Default: 3 of the shortest edges
 ///                   of a voxel
 /// @return a level set named "distance" of that half-width: world units, negative inside. The transform is

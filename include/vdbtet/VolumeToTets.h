@@ -33,6 +33,13 @@ enum class Boundary {
     Raw       ///< nothing
 };
 
+/// What NaN and infinite values are taken for, be they of voxels, of tiles, or the background.
+enum class Nan {
+    Error,  ///< the grid is refused
+    Inside, ///< as far inside as the background is outside
+    Outside ///< the background; where that is bad itself, as far outside as any value is from the isovalue
+};
+
 /// What Options::tau is unless given.
 constexpr double kDefaultTau = 0.7;
 
@@ -41,6 +48,8 @@ struct Options {
     /// other class 0 if the background is positive, else 0.5.
     std::optional<double> isovalue;
     Inside inside = Inside::Automatic;
+    /// With Inside and Outside a grid that holds such values is copied for the run.
+    Nan nan = Nan::Error;
 
     /// Lattice spacing c, a world length: the long edges of the BCC lattice. Default: voxels voxels.
     std::optional<double> spacing;
@@ -77,6 +86,13 @@ struct Options {
     /// Refuse, before the work, a surface that crosses more lattice tiles (8 x 8 x 8 cells) than this. A tile
     /// takes about 1.5 kB while the mesh is made.
     std::int64_t maxSurfaceTiles = std::int64_t(1) << 22;
+    /// Refuse a mesh of more tets than this, before any is made: once it is known how many there will be, and
+    /// where the inside alone has more, before the surface is looked at. The default is a ball of 890 cells
+    /// across, in a file of 100 GB.
+    std::int64_t maxTets = std::int64_t(1) << 32;
+    /// Refuse, before the work, what would take more bytes than this by the estimate of Report::memory.
+    /// Default: no limit.
+    std::optional<std::int64_t> maxMemory;
 };
 
 /// What was wrong with the boundary, and what was done about it.
@@ -124,7 +140,11 @@ struct Report {
     std::int64_t qualityFlips = 0;    ///< long edges flipped by version 3 for the better angles
     std::int64_t flagged = 0;         ///< vertices that version 3 took the rule of version 2 for
     int guardRounds = 0;              ///< of version 3 in which it did so
+    std::int64_t badValues = 0;       ///< NaN or infinite, taken for what Options::nan says
     std::int64_t surfaceTiles = 0;    ///< tiles that held any per-vertex state
+    std::int64_t gridMemory = 0;      ///< of the grid, and of its copy if values had to be replaced, bytes
+    std::int64_t memory = 0;          ///< estimated before the work: the peak of that and the mesher, bytes;
+                                      ///< what the sink keeps, such as a TetMesh, is not in it
     std::int64_t cutEdges = 0;        ///< short edges with a cut point
     std::int64_t backLabelled = 0;    ///< vertices that the serial worklist settled
     std::int64_t tieBroken = 0;       ///< vertices settled by the rule for exact ties and cycles
@@ -164,8 +184,8 @@ struct Report {
 ///                     the sink has got.
 /// @details Runs on the caller's tbb::task_arena; the mesh is the same, bit for bit, for any number of
 /// threads. Memory grows with the surface, not with the volume or its bounding box.
-/// @throw BadOption, UnsupportedGrid, BadValue, NoSurface, UnboundedInside, TooLarge, and whatever the sink
-/// throws
+/// @throw BadOption, UnsupportedGrid, BadValue, NoSurface, UnboundedInside, TooLarge, std::bad_alloc where
+/// memory runs out all the same, and whatever the sink throws
 template <typename GridT>
 Report volumeToTets(const GridT& grid, MeshSink& sink, const Options& options = {},
                     openvdb::util::NullInterrupter* interrupter = nullptr);

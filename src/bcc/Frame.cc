@@ -15,6 +15,10 @@ using openvdb::Vec3d;
 
 namespace {
 
+[[noreturn]] void throwSingular() {
+    throw UnsupportedGrid("the transform is singular or not finite; give the grid another one");
+}
+
 /// The columns of the transform's linear part: the world vectors of the three voxel edges.
 std::array<Vec3d, 3> voxelEdges(const openvdb::math::Transform& transform) {
     if (!transform.isLinear()) {
@@ -28,6 +32,8 @@ std::array<Vec3d, 3> voxelEdges(const openvdb::math::Transform& transform) {
         Vec3d unit(0.0);
         unit[axis] = 1.0;
         edges[axis] = map->applyJacobian(unit);
+        const double length = edges[axis].length();
+        if (!(length > 0.0) || !std::isfinite(length)) throwSingular();
     }
     return edges;
 }
@@ -61,9 +67,7 @@ Frame makeFrame(const openvdb::math::Transform& transform, double spacing) {
     for (int i = 0; i < 3; ++i) e[i] = edges[i] / spacing;
     const double lengths = e[0].length() * e[1].length() * e[2].length();
     const double det = e[0].dot(e[1].cross(e[2]));
-    if (!(std::abs(det) > 1e-12 * lengths) || !std::isfinite(det)) {
-        throw UnsupportedGrid("the transform is singular or not finite");
-    }
+    if (!(std::abs(det) > 1e-12 * lengths) || !std::isfinite(det)) throwSingular();
 
     const Vec3d x = e[0].unit();
     const Vec3d y = (e[1] - x * x.dot(e[1])).unit();
@@ -74,6 +78,8 @@ Frame makeFrame(const openvdb::math::Transform& transform, double spacing) {
     Frame frame;
     frame.spacing = spacing;
     frame.origin = transform.indexToWorld(Vec3d(0.0));
+    if (!std::isfinite(frame.origin.x() + frame.origin.y() + frame.origin.z()))
+        throw UnsupportedGrid("the transform's translation is not finite; give the grid another transform");
     frame.toWorld = rotation * spacing;
     frame.toIndex = snapped(voxel.inverse() * rotation);
     frame.fromIndex = frame.toIndex.inverse();

@@ -23,6 +23,7 @@ struct Frame {
 };
 
 /// @return the world length of the shortest edge of a voxel.
+/// @throw UnsupportedGrid where the transform is not affine, or an edge is zero or not finite
 double shortestVoxelEdge(const openvdb::math::Transform& transform);
 
 /// @throw UnsupportedGrid where the transform is not affine, or is singular or not finite

@@ -116,7 +116,9 @@ public:
 
     void run() {
         Units units(mGrading, mNumbering);
+        const Interrupt::Visit whole(mInterrupt);
         const auto cut = [&](tbb::flow_control& flow) -> Unit {
+            const Interrupt::Visit task(mInterrupt);
             if (!units.done() && !mInterrupt.stopped()) return units.next();
             flow.stop();
             return {};
@@ -140,6 +142,7 @@ private:
     }
 
     Parcel* make(const Unit& unit) {
+        const Interrupt::Visit task(mInterrupt);
         Parcel* parcel = nullptr;
         if (!mSpare.try_pop(parcel)) parcel = mParcels.push_back(std::make_unique<Parcel>(mWants))->get();
         MeshChunk& chunk = parcel->chunk;
@@ -178,6 +181,7 @@ private:
     }
 
     void pass(Parcel& parcel) {
+        const Interrupt::Visit task(mInterrupt);
         if (mInterrupt.poll(int(100.0 * double(mPassed) / double(mNumbering.tets())))) return;
         mSink.chunk(parcel.chunk);
         mPassed += std::int64_t(parcel.chunk.tets.size());

@@ -51,7 +51,7 @@ public:
     /// of an octahedron, of either lattice, whose spine's lower end the tile owns.
     /// @param margin  0; or 1, for a reach of one cell more: then no cut edge touches any vertex next to one
     /// of those octahedra's, either
-    /// @throw TooLarge for more than @a maxTiles
+    /// @throw TooLarge for more than @a maxTiles, and where the grid's coordinates end
     virtual std::vector<openvdb::Coord> surfaceTiles(std::int64_t maxTiles, int margin,
                                                      Interrupt& interrupt) const = 0;
 

@@ -19,6 +19,7 @@
 #include <openvdb/tree/ValueAccessor.h>
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,18 @@ namespace vdbtet {
 [[noreturn]] inline void throwTooManyTiles(std::int64_t maxTiles) {
     throw TooLarge("the surface crosses more than " + std::to_string(maxTiles) +
                    " lattice tiles of 8 x 8 x 8 cells; use a coarser spacing, or raise the limit");
+}
+
+/// Neighbours of what holds the surface must have coordinates, too.
+inline void requireRoom(const openvdb::Coord& min, int size) {
+    const std::int64_t room = std::max(size, 64);
+    for (int axis = 0; axis < 3; ++axis) {
+        if (std::int64_t(min[axis]) - room < std::numeric_limits<openvdb::Int32>::min() ||
+            std::int64_t(min[axis]) + size + room > std::numeric_limits<openvdb::Int32>::max()) {
+            throw TooLarge("the shape reaches the ends of the grid's 32-bit coordinates; move it away from "
+                           "them, and the transform back");
+        }
+    }
 }
 
 /// A box of voxels at a leaf's lower corner.
@@ -133,9 +146,11 @@ public:
         : mAccessor(tree), mLevel(level), mMaxTiles(maxTiles) {}
 
     /// @param tile  the voxels of a constant tile that is inside
-    /// @throw TooLarge once there are more than kBlocksPerTile for each of maxTiles
+    /// @throw TooLarge once there are more than kBlocksPerTile for each of maxTiles, and at the ends of
+    /// coordinates
     void visit(const openvdb::CoordBBox& tile) {
         const int size = tile.dim().x();
+        requireRoom(tile.min(), size);
         for (int slot = 0; slot < 27; ++slot) {
             if (slot == neighbourSlot(0, 0, 0)) continue;
             const openvdb::Coord step(slot / 9 - 1, slot / 3 % 3 - 1, slot % 3 - 1);
@@ -238,12 +253,14 @@ void forEachSurfaceBlock(const TreeT& tree, const Level& level, std::int64_t max
         const TileMask mixed = signs.mixedCubes(block);
         if (mixed.any()) visitors.local()(block, mixed);
     };
+    using LeafT = typename TreeT::LeafNodeType;
     const openvdb::tree::LeafManager<const TreeT> leaves(tree);
     interrupt.expectLoops(1); // what follows takes long only where the tree has few leaves
     parallelRanges(std::int64_t(leaves.leafCount()), interrupt, [&](std::int64_t begin, std::int64_t end) {
         BlockSigns<TreeT> signs(tree, level);
         for (std::int64_t l = begin; l < end; ++l) {
             const auto& leaf = leaves.leaf(std::size_t(l));
+            requireRoom(leaf.origin(), int(LeafT::DIM));
             const openvdb::Coord block = leaf.origin() >> 3;
             visit(signs, block);
             // A cube belongs to the block of its lower corner: those that reach into the leaf from constant

@@ -1,23 +1,19 @@
 /// @file ValueRange.h
-/// The values of a grid, all of which must have a sign.
+/// The range of a grid's values, and which of them have no sign.
 #pragma once
 
+#include "Parallel.h"
 #include "bits/TileMask.h"
 #include "field/TreeNodes.h"
 #include "simd/Isa.h"
 
-#include <vdbtet/Errors.h>
-
 #include <openvdb/tree/LeafManager.h>
 
-#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 namespace vdbtet {
 
@@ -52,7 +48,7 @@ bool widenIfFinite(const T* voxels, double& min, double& max) {
     return true;
 }
 
-/// What a part of the tree has.
+/// What a part of the tree has: the range of its finite values, and the others.
 struct ValueScan {
     double min = std::numeric_limits<double>::infinity(), max = -min;
     std::int64_t bad = 0;
@@ -89,35 +85,27 @@ struct ValueScan {
     }
 };
 
-/// @return the least and the greatest value of the leaves, the tiles and the background, active or not.
-/// @throw BadValue where one of them is NaN or infinite
+/// @return what the leaves and tiles have, active or not; the background is not among it.
 template <typename GridT>
-ValueRange scanValues(const GridT& grid) {
-    if (!std::isfinite(grid.background())) throw BadValue("the background value is not a finite number");
+ValueScan scanValues(const GridT& grid, Interrupt& interrupt) {
     using TreeT = typename GridT::TreeType;
     tbb::enumerable_thread_specific<ValueScan> scans;
     const openvdb::tree::LeafManager<const TreeT> leaves(grid.tree());
-    tbb::parallel_for(tbb::blocked_range<size_t>(0, leaves.leafCount(), 64), [&](const auto& range) {
+    interrupt.expectLoops(1);
+    parallelRanges(std::int64_t(leaves.leafCount()), interrupt, [&](std::int64_t begin, std::int64_t end) {
         ValueScan& scan = scans.local();
-        for (size_t l = range.begin(); l != range.end(); ++l) scan.addLeaf(leaves.leaf(l));
+        for (std::int64_t l = begin; l < end; ++l) scan.addLeaf(leaves.leaf(std::size_t(l)));
     });
     const TreeNodes<TreeT> nodes(grid.tree());
-    tbb::parallel_for(size_t(0), nodes.lower.size(),
-                      [&](size_t n) { scans.local().addTiles(*nodes.lower[n]); });
-    tbb::parallel_for(size_t(0), nodes.upper.size(),
-                      [&](size_t n) { scans.local().addTiles(*nodes.upper[n]); });
+    parallelEach(std::int64_t(nodes.lower.size()), interrupt,
+                 [&](std::int64_t n) { scans.local().addTiles(*nodes.lower[n]); });
+    parallelEach(std::int64_t(nodes.upper.size()), interrupt,
+                 [&](std::int64_t n) { scans.local().addTiles(*nodes.upper[n]); });
     ValueScan scan;
     for (const ValueScan& part : scans) scan.add(part);
     for (auto tile = grid.tree().root().cbeginValueAll(); tile; ++tile)
         scan.add(*tile, [&] { return tile.getCoord(); });
-    if (scan.bad != 0) {
-        std::ostringstream message;
-        message << scan.bad << " voxels or tiles hold NaN or infinite values, the first at " << scan.firstBad
-                << "; such values have no sign, replace them first";
-        throw BadValue(message.str());
-    }
-    const double background = grid.background();
-    return {std::min(scan.min, background), std::max(scan.max, background)};
+    return scan;
 }
 
 } // namespace vdbtet

@@ -6,6 +6,7 @@
 
 #include "ChooseLevel.h"
 #include "bcc/Frame.h"
+#include "field/FiniteGrid.h"
 
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Interpolation.h>
@@ -94,8 +95,10 @@ openvdb::GridBase::Ptr makeDistance(const GridT& grid, const Options& options,
         throw BadOption("the width of a distance's band must be a positive length");
     Report report;
     const Level level = chooseLevel(grid, double(grid.background()), options, report);
-    requireInside(scanValues(grid), level);
-    const typename GridT::Ptr result = distanceTo(grid, level, voxel, width, interrupter);
+    Interrupt none(nullptr); // looking at the values takes no time next to the rest
+    const FiniteGrid<GridT> finite(grid, level, options.nan, none);
+    requireInside(finite.values(), level);
+    const typename GridT::Ptr result = distanceTo(finite.grid(), level, voxel, width, interrupter);
     if (result->activeVoxelCount() == 0 && !(interrupter && interrupter->wasInterrupted())) {
         throw NoSurface("OpenVDB finds no surface to measure distances from; activate the values around it");
     }

@@ -194,6 +194,7 @@ void MeshFile::end() {
     } else {
         impl.format->finish(impl.files);
     }
+    for (RecordFile& file : impl.files) file.prepare();
     for (RecordFile& file : impl.files) file.commit();
 }
 

@@ -143,7 +143,8 @@ void OutputFile::readAt(std::uint64_t offset, void* data, std::size_t size) cons
     if (const int error = readAll(mFd, offset, data, size)) fail(error);
 }
 
-void OutputFile::commit() {
+void OutputFile::prepare() {
+    if (mFd < 0) return;
     if (mTemporary.empty()) {
         const auto link = [this](const char* name) {
             return ::linkat(AT_FDCWD, nameOfDescriptor(mFd).c_str(), AT_FDCWD, name, AT_SYMLINK_FOLLOW);
@@ -158,6 +159,10 @@ void OutputFile::commit() {
     const int fd = mFd;
     mFd = -1;
     if (::close(fd) != 0 && errno != EINTR) fail(errno);
+}
+
+void OutputFile::commit() {
+    prepare();
     if (std::rename(mTemporary.c_str(), mTarget.c_str()) != 0) fail(errno);
     mTemporary.clear();
 }

@@ -28,6 +28,9 @@ public:
     void writeAt(std::uint64_t offset, const void* data, std::size_t size);
     /// What was written. Bytes behind the end of the file are left as they are.
     void readAt(std::uint64_t offset, void* data, std::size_t size) const;
+    /// Do all of commit() that a full disk can hinder, so that of files that belong together none takes its
+    /// place before all can.
+    void prepare();
     void commit();
     const std::string& path() const { return mPath; }
 

@@ -75,6 +75,7 @@ public:
         }
     }
 
+    void prepare() { mFile.prepare(); }
     void commit() { mFile.commit(); }
 
     /// For what is not made of records.

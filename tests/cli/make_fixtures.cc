@@ -1,6 +1,6 @@
 /// @file make_fixtures.cc
 /// Writes the .vdb files that the tests of vdb_tet read into the working directory: with --sequence those of
-/// a sequence, else all others.
+/// a sequence, with --hostile those that ask for too much or make no sense, else all others.
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Composite.h>
 #include <openvdb/tools/LevelSetSphere.h>
@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <string>
 
 namespace {
@@ -106,12 +107,78 @@ void writeSequence() {
     std::filesystem::resize_file("frame.0007.vdb", 2000);
 }
 
+/// A constant tile of 4096 voxels an edge, or several, inside: a large surface, and a larger inside.
+openvdb::GridBase::Ptr bomb(int tiles) {
+    const auto grid = openvdb::FloatGrid::create(3.0f);
+    grid->setName("bomb");
+    grid->setGridClass(openvdb::GRID_LEVEL_SET);
+    const openvdb::CoordBBox box(openvdb::Coord(0), openvdb::Coord(tiles - 1));
+    for (auto at = box.begin(); at; ++at)
+        grid->tree().addTile(3, openvdb::Coord(4096 * (*at).x(), 4096 * (*at).y(), 4096 * (*at).z()), -3.0f,
+                             true);
+    return grid;
+}
+
+openvdb::GridBase::Ptr withTransform(const openvdb::math::Transform::Ptr& transform) {
+    const auto grid = sphere(1.0f, "ball");
+    grid->setTransform(transform);
+    return grid;
+}
+
+/// The same ball in other places of index space.
+openvdb::GridBase::Ptr shifted(const openvdb::Coord& by) {
+    const auto from = sphere(1.0f, "ball"), to = from->copyWithNewTree();
+    for (auto voxel = from->cbeginValueOn(); voxel; ++voxel)
+        to->tree().setValueOn(voxel.getCoord() + by, *voxel);
+    return to;
+}
+
+/// Files that are sound, and say what cannot be meant.
+void writeHostile() {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const double infinity = std::numeric_limits<double>::infinity();
+    const auto holes = sphere(1.0f, "ball");
+    for (const int x : {9, 10, 11}) holes->tree().setValueOn(openvdb::Coord(x, 0, 0), nan);
+    write("nan.vdb", {holes});
+    const auto nowhere = sphere(1.0f, "ball");
+    nowhere->tree().root().setBackground(nan, false);
+    write("nan_background.vdb", {nowhere});
+    const auto inverse = sphere(1.0f, "ball");
+    inverse->tree().root().setBackground(-0.3f, false);
+    write("inside_background.vdb", {inverse});
+
+    write("bomb_4096.vdb", {bomb(1)});
+    write("bomb_16384.vdb", {bomb(4)});
+
+    using openvdb::math::Transform;
+    write("nan_transform.vdb", {withTransform(Transform::createLinearTransform(double(nan)))});
+    write("infinite_transform.vdb", {withTransform(Transform::createLinearTransform(infinity))});
+    const auto far = Transform::createLinearTransform(0.1);
+    far->postTranslate(openvdb::Vec3d(1e15, 0, 0));
+    write("far_transform.vdb", {withTransform(far)});
+    write("ends.vdb", {shifted(openvdb::Coord(std::numeric_limits<int>::max() - 12, 0, 0))});
+
+    const auto liar = sphere(1.0f, "ball");
+    liar->insertMeta("file_bbox_min", openvdb::Vec3IMetadata(openvdb::Vec3i(2147483647)));
+    liar->insertMeta("file_bbox_max", openvdb::Vec3IMetadata(openvdb::Vec3i(-2147483647)));
+    liar->insertMeta("file_voxel_count", openvdb::Int64Metadata(-1));
+    liar->insertMeta("file_mem_bytes", openvdb::StringMetadata("a lot"));
+    liar->insertMeta("value_type", openvdb::StringMetadata("vec3s"));
+    openvdb::io::File file("liar.vdb");
+    file.setGridStatsMetadataEnabled(false);
+    file.write(openvdb::GridCPtrVec{liar});
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
     openvdb::initialize();
     if (argc > 1 && std::string(argv[1]) == "--sequence") {
         writeSequence();
+        return 0;
+    }
+    if (argc > 1 && std::string(argv[1]) == "--hostile") {
+        writeHostile();
         return 0;
     }
     const auto vectors = openvdb::Vec3SGrid::create();

@@ -2,6 +2,7 @@
 /// The options of vdb_tet, bound straight onto the library's.
 #include "CommandLine.h"
 
+#include "Console.h"
 #include "Manual.h"
 #include "Suggest.h"
 #include "UsageError.h"
@@ -30,6 +31,9 @@ const std::map<std::string, vdbtet::Inside> kSides = {
 const std::map<std::string, vdbtet::Boundary> kBoundaries = {{"manifold", vdbtet::Boundary::Manifold},
                                                              {"fill", vdbtet::Boundary::Fill},
                                                              {"raw", vdbtet::Boundary::Raw}};
+
+const std::map<std::string, vdbtet::Nan> kNans = {
+    {"error", vdbtet::Nan::Error}, {"inside", vdbtet::Nan::Inside}, {"outside", vdbtet::Nan::Outside}};
 
 /// @return what is wrong with the text, or nothing
 std::string isPositive(const std::string& text) {
@@ -147,6 +151,11 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
            "Mesh where values are below or above the isovalue. Default: auto, by the grid's class")
         ->check(CLI::IsMember(kSides).description(""))
         ->type_name("below|above|auto");
+    app.add_option_function<std::string>(
+           "--nan", [&options](const std::string& choice) { options.nan = kNans.at(choice); },
+           "What NaN and infinite values are taken for; error refuses a volume that has any. Default: error")
+        ->check(CLI::IsMember(kNans).description(""))
+        ->type_name("error|inside|outside");
     auto* spacing =
         app.add_option("-s,--spacing", options.spacing, "Length of the lattice's long edges in world units")
             ->check(positive)
@@ -196,6 +205,15 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
                        "Default: {}",
                        options.maxSurfaceTiles))
         ->type_name("N");
+    app.add_option("--max-tets", options.maxTets,
+                   fmt::format("Refuse a mesh of more tets than this, before it is made. Default: {}",
+                               options.maxTets))
+        ->type_name("N");
+    app.add_option("--max-memory", options.maxMemory,
+                   "Refuse, before the work, what would take more memory than this by an estimate, such as "
+                   "500M or 8G. Default: what is free")
+        ->transform(CLI::AsSizeValue(true).description(""))
+        ->type_name("SIZE");
     app.add_option("--sample", line.sample,
                    "Grids of IN whose values the points shall carry, trilinear; all for all others")
         ->delimiter(',')
@@ -280,19 +298,19 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
 
     // For the build, which installs what it prints.
     if (argc == 3 && argv[1] == std::string("--generate")) {
-        fmt::print("{}", argv[2] == std::string("man") ? manPage(app) : completion(app, argv[2]));
+        print(argv[2] == std::string("man") ? manPage(app) : completion(app, argv[2]));
         return std::nullopt;
     }
     try {
         app.parse(withTargets(argc, argv));
     } catch (const CLI::CallForAllHelp&) {
-        fmt::print("{}", app.help());
+        print(app.help());
         return std::nullopt;
     } catch (const CLI::CallForHelp&) {
-        fmt::print("{}", helpScreen(app));
+        print(helpScreen(app));
         return std::nullopt;
     } catch (const CLI::CallForVersion& version) {
-        fmt::print("{}\n", version.what());
+        print(version.what() + std::string("\n"));
         return std::nullopt;
     } catch (const CLI::Error& error) {
         for (const std::string& argument : app.remaining()) {

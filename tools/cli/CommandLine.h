@@ -43,5 +43,5 @@ struct CommandLine {
 };
 
 /// @return nothing when help or the version was asked for, and has been printed
-/// @throw UsageError, vdbtet::BadOption
+/// @throw UsageError, vdbtet::BadOption, and vdbtet::FileError where that cannot be printed
 std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv);

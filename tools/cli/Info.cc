@@ -5,6 +5,7 @@
 #include "Console.h"
 #include "Summary.h"
 #include "UsageError.h"
+#include "batch/Memory.h"
 #include "process/Query.h"
 #include "process/ReadingLimits.h"
 #include "process/Reporter.h"
@@ -17,11 +18,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <vector>
@@ -48,15 +48,11 @@ struct Counter final : vdbtet::MeshSink, openvdb::util::NullInterrupter {
     bool counted = false;
 };
 
-std::int64_t peakMemory() {
-    rusage usage = {};
-    getrusage(RUSAGE_SELF, &usage);
-    return std::int64_t(usage.ru_maxrss) * 1024;
-}
-
 json countMesh(const openvdb::GridBase& grid, bool graded, openvdb::util::NullInterrupter& interrupter) {
     vdbtet::Options options;
     options.grade = graded;
+    options.maxTets = std::numeric_limits<std::int64_t>::max(); // none is made
+    options = withMemoryLimit(options, grid);
     Counter counter(interrupter);
     const auto start = std::chrono::steady_clock::now();
     const vdbtet::Report report = vdbtet::volumeToTets(grid, counter, options, &counter);
@@ -64,7 +60,6 @@ json countMesh(const openvdb::GridBase& grid, bool graded, openvdb::util::NullIn
     if (!counter.counted) return nullptr; // interrupted
     // Measuring takes as long again as counting, and files some 0.5 s a gigabyte; see docs/benchmarks.md.
     constexpr double kSecondsPerByte = 0.5e-9, kSecondsPerCount = 1.6;
-    constexpr std::int64_t kBuffers = 64'000'000;
     const std::uint64_t bytes = vdbtet::MeshFile::size("mesh.vtu", counter.totals);
     return {{"rule", report.insideRule},
             {"spacing", report.spacing},
@@ -72,7 +67,7 @@ json countMesh(const openvdb::GridBase& grid, bool graded, openvdb::util::NullIn
             {"tets", counter.totals.tets},
             {"boundaryTriangles", counter.totals.triangles},
             {"vtuBytes", bytes},
-            {"memoryBytes", peakMemory() + kBuffers},
+            {"memoryBytes", report.memory},
             {"seconds", kSecondsPerCount * seconds + kSecondsPerByte * double(bytes)}};
 }
 

@@ -33,6 +33,10 @@ std::string asText(const CommandLine& line, const Summary& summary) {
     add("grid", fmt::format("{} ({})", r.gridName.empty() ? "unnamed" : r.gridName, summary.gridType));
     if (!summary.surface.empty()) add("surface", summary.surface);
     add("rule", r.insideRule);
+    if (r.badValues > 0) {
+        add("replaced", fmt::format("{} values that are NaN or infinite, taken as {}", r.badValues,
+                                    line.options.nan == vdbtet::Nan::Inside ? "inside" : "outside"));
+    }
     add("spacing", fmt::format("{:g}, in voxels {:g}", r.spacing, r.spacing / r.voxelSize));
     add("mesh",
         fmt::format("{} points, {} tets, {} boundary triangles", r.points, r.tets, r.boundaryTriangles));
@@ -123,7 +127,9 @@ std::string asJson(const CommandLine& line, const Summary& summary) {
         {"qualityFlips", r.qualityFlips},
         {"flagged", r.flagged},
         {"guardRounds", r.guardRounds},
+        {"badValues", r.badValues},
         {"surfaceTiles", r.surfaceTiles},
+        {"memoryEstimate", r.memory},
         {"cutEdges", r.cutEdges},
         {"backLabelled", r.backLabelled},
         {"tieBroken", r.tieBroken},

@@ -59,6 +59,12 @@ std::optional<std::int64_t> freeMemory(const std::string& root) {
     return free;
 }
 
+vdbtet::Options withMemoryLimit(vdbtet::Options options, const openvdb::GridBase& grid) {
+    const std::optional<std::int64_t> free = freeMemory();
+    if (!options.maxMemory && free) options.maxMemory = *free + std::int64_t(grid.memUsage());
+    return options;
+}
+
 int jobsThatFit(std::int64_t free, std::int64_t peak, int threads) {
     // The next frames may be larger.
     constexpr double kReserve = 1.5;

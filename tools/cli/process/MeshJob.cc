@@ -3,6 +3,7 @@
 #include "process/MeshJob.h"
 
 #include "Summary.h"
+#include "batch/Memory.h"
 #include "process/Query.h"
 #include "process/ReadingLimits.h"
 #include "process/Reporter.h"
@@ -167,7 +168,8 @@ void mesh(const CommandLine& line, const Channel& channel) {
         runStage("fields", reporter, [&] { fields = fieldsOf(line, *grid, reporter); });
     vdbtet::FieldSampler sampler(written, fields);
 
-    summary.report = vdbtet::volumeToTets(*grid, sampler, line.options, &reporter);
+    const vdbtet::Options options = withMemoryLimit(line.options, *grid);
+    summary.report = vdbtet::volumeToTets(*grid, sampler, options, &reporter);
     const vdbtet::Report& report = summary.report;
     if (report.cancelled) {
         channel.send({{"cancelled", Signals::first()}});

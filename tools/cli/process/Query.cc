@@ -22,7 +22,7 @@ int tellErrors(const Channel& channel, const std::function<void()>& work) {
     } catch (const vdbtet::BadOption& error) {
         return fail(error.what(), 2);
     } catch (const std::bad_alloc&) {
-        return fail("out of memory", 1);
+        return fail("memory ran out; use a coarser --spacing, or fewer --jobs", 1);
     } catch (const std::exception& error) {
         return fail(error.what(), 1);
     }

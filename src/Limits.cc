@@ -1,0 +1,62 @@
+/// @file Limits.cc
+/// Bytes a tile, measured, and messages with the figures.
+#include "Limits.h"
+
+#include <vdbtet/Errors.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <string>
+
+namespace vdbtet {
+
+namespace {
+
+/// Such as 9.1 GB.
+std::string gigabytes(std::int64_t bytes) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g GB", 1e-9 * double(bytes));
+    return text;
+}
+
+/// @param atLeast  said before the number
+[[noreturn]] void throwTooMany(const char* atLeast, std::int64_t tets, const Options& options) {
+    throw TooLarge(std::string("the mesh would have ") + atLeast + std::to_string(tets) +
+                   " tets, more than the limit of " + std::to_string(options.maxTets) +
+                   "; use a coarser spacing, " + (options.grade ? "" : "grade the inside, ") +
+                   "or raise the limit");
+}
+
+} // namespace
+
+std::int64_t estimateMemory(std::int64_t surfaceTiles, const Options& options) {
+    // Chunks in flight, stacks and the libraries' own.
+    constexpr std::int64_t kAnyRun = 60'000'000;
+    std::int64_t tile = 1500;
+    if (options.tiger == 3) tile += 1500;
+    if (options.optimize) tile += 1000;
+    return kAnyRun + surfaceTiles * tile;
+}
+
+void requireMemory(std::int64_t bytes, const Options& options) {
+    if (!options.maxMemory || bytes <= *options.maxMemory) return;
+    throw TooLarge("meshing it would take about " + gigabytes(bytes) + " of memory, more than the limit of " +
+                   gigabytes(*options.maxMemory) + "; use a coarser spacing, or raise the limit");
+}
+
+void requireFewTets(const Layout& layout, const Options& options) {
+    if (options.grade) return;
+    constexpr std::int64_t kTetsPerTile = 12 * TileMask::kSize;
+    std::int64_t tiles = 0; // of 2^29 in each of 2^30 columns at most
+    for (const Span& span : layout.spans) tiles += span.tile == kInside ? span.count : 0;
+    if (tiles <= options.maxTets / kTetsPerTile) return;
+    constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max() / kTetsPerTile;
+    throwTooMany("at least ", std::min(tiles, kMost) * kTetsPerTile, options);
+}
+
+void requireFewTets(std::int64_t tets, const Options& options) {
+    if (tets > options.maxTets) throwTooMany("", tets, options);
+}
+
+} // namespace vdbtet
