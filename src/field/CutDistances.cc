@@ -70,9 +70,10 @@ void distancesToCuts(const CutEdges& edges, bool nearIsB, float* distance, Isa i
             for (int i = 0; i < kLanes; ++i) {
                 const double x = root[i], to = x - phi(i, x) / phi.slope(i, x);
                 const double low = to > 0.0 ? to : 0.0, next = low < 1.0 ? low : 1.0;
-                const std::int64_t going = open[i] & steep[i];
-                root[i] = going != 0 ? next : x;
-                open[i] = (going != 0) & (std::abs(next - x) < kRootTolerance) ? 0 : open[i];
+                const double moved = std::abs(next - x);
+                const bool going = (open[i] & steep[i]) != 0;
+                root[i] = going ? next : x;
+                open[i] = (going & (moved < kRootTolerance)) ? 0 : open[i];
                 left += open[i] & steep[i];
             }
             if (left == 0) break;

@@ -75,11 +75,13 @@ struct ActiveBatch {
         for (int i = 0; i < kLanes; ++i) {
             const double minA = minCos[0][i], minB = minCos[1][i], maxA = maxCos[0][i], maxB = maxCos[1][i];
             const bool upright = (minVolume[0][i] > 0.0) & (minVolume[1][i] > 0.0);
-            const bool distinct = (std::abs(maxA - maxB) > kClear) & (std::abs(minA - minB) > kClear) &
-                                  (std::abs(maxA - kMinCos) > kClear) & (std::abs(maxB - kMinCos) > kClear);
+            const double apartMax = std::abs(maxA - maxB), apartMin = std::abs(minA - minB),
+                         fromA = std::abs(maxA - kMinCos), fromB = std::abs(maxB - kMinCos);
+            const bool distinct =
+                (apartMax > kClear) & (apartMin > kClear) & (fromA > kClear) & (fromB > kClear);
             const bool fine = (maxA < kMinCos) & (maxB < kMinCos);
             const std::int64_t byMax = minB > minA ? 1 : 0, byMin = maxB < maxA ? 1 : 0;
-            clear[i] = upright & distinct ? 1 : 0;
+            clear[i] = (upright & distinct) ? 1 : 0;
             slicesB[i] = fine ? byMax : byMin;
         }
     }

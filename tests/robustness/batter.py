@@ -2,16 +2,19 @@
 """Batters vdb_tet with damaged files, and counts what comes of it.
 
 usage: batter.py VDB_TET FOLDER_OR_FILE... [--mutations N] [--seed S] [--limit-gib G] [--seconds T]
+                 [--check COMMAND] [--extension E] [--keep FOLDER]
 
 Every .vdb is meshed as it is; with --mutations, so many damaged copies of the valid ones are, too. A run is bad that
-ends by a signal, takes too long or too much memory, leaves a file behind that it says it has not written, or says
-nothing or more than a line of why. The exit code is 1 if any run is bad.
+ends by a signal, takes too long or too much memory, leaves a file behind that it says it has not written, says nothing
+or more than a line of why, or writes a mesh that COMMAND MESH, such as build/release/tests/robustness/vdbtet_check_mesh
+with the extension meshb, does not end with 0 for. The exit code is 1 if any run is bad.
 """
 import argparse
 import collections
 import os
 import random
 import resource
+import shlex
 import signal
 import subprocess
 import sys
@@ -42,9 +45,16 @@ def mutated(whole, rng):
     return bytes(data)
 
 
+def check(command, mesh):
+    """@return what a command says against a mesh, or nothing"""
+    done = subprocess.run(shlex.split(command) + [mesh], capture_output=True, text=True, errors="replace")
+    return "" if done.returncode == 0 else done.stdout + done.stderr or f"exit {done.returncode}"
+
+
 def run(vdb_tet, path, folder, options):
     """@return the outcome of meshing one file: a word, and what was said"""
-    out = os.path.join(folder, "out.vtu")
+    name = "out." + options.extension
+    out = os.path.join(folder, name)
     command = [vdb_tet, path, out, "-q", "--voxels", "2"]
     try:
         done = subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=options.seconds)
@@ -52,12 +62,17 @@ def run(vdb_tet, path, folder, options):
         return "HANG", str(expired)
     said = done.stderr.strip()
     left = sorted(os.listdir(folder))
+    judged = ""
     if os.path.exists(out):
+        if done.returncode == 0 and options.check:
+            judged = check(options.check, out)
         os.remove(out)
     if done.returncode < 0:
         return "CRASH", signal.Signals(-done.returncode).name
     if done.returncode == 0:
-        return ("accepted", said) if left == ["out.vtu"] and not said else ("ODD SUCCESS", f"{left} {said}")
+        if left != [name] or said:
+            return "ODD SUCCESS", f"{left} {said}"
+        return ("WRONG MESH", judged) if judged else ("accepted", said)
     if left:
         return "LEFT FILES", str(left)
     if done.stdout or said.count("\n") or not said:
@@ -73,6 +88,8 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--limit-gib", type=float, default=2)
     parser.add_argument("--seconds", type=float, default=20)
+    parser.add_argument("--check", help="a command that judges the meshes")
+    parser.add_argument("--extension", default="vtu", help="of the meshes")
     parser.add_argument("--keep", help="a folder to put copies of what came out bad into")
     options = parser.parse_args()
 

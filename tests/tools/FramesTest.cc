@@ -21,7 +21,8 @@ TEST_CASE("lists that make no sense are refused") {
         CAPTURE(list);
         CHECK_THROWS_AS(parseFrames(list), UsageError);
     }
-    CHECK_THROWS_AS(parseFrames("1-100000000"), UsageError);
+    CHECK_THROWS_AS(parseFrames("1-100001"), UsageError);
+    CHECK_THROWS_AS(parseFrames(std::string(200000, '1')), UsageError);
 }
 
 TEST_CASE("patterns put a frame's number into a file's name") {
@@ -42,6 +43,13 @@ TEST_CASE("patterns put a frame's number into a file's name") {
     CHECK_FALSE(FramePattern::find("a.vdb"));
     CHECK_FALSE(FramePattern::find("%04d/a.vdb"));
     CHECK_FALSE(FramePattern::find("100%.vdb"));
+    for (const char* none : {"%", "%d/", "a%0", "%0d", "%00d", "%10d", "%4", "% d"}) {
+        CAPTURE(none);
+        CHECK_FALSE(FramePattern::find(none));
+    }
+    CHECK(path("%%d%d", 1) == "%%d1");
+    const std::string places(200000, '#'); // longer than a stack of recursive calls is deep
+    CHECK(path(places.c_str(), 7) == std::string(places.size() - 1, '0') + "7");
 }
 
 TEST_CASE("the number in a name is the last run of digits") {

@@ -73,6 +73,15 @@ TEST_CASE("all grids of a file are jobs, and a file that cannot be listed is one
     CHECK(jobs[2].line.in == "bad.vdb");
 }
 
+TEST_CASE("there is an end to the number of jobs") {
+    CommandLine line = lineOf({"a.#.vdb", "b.#.vdb", "c.#.vdb"}, "{stem}.vtu");
+    line.frames = "1-50000";
+    CHECK_THROWS_AS(planJobs(line, noGrids), UsageError);
+    line = lineOf({"a.vdb"}, "{grid}.vtu");
+    line.allGrids = true;
+    CHECK_THROWS_AS(planJobs(line, [](const std::string&) { return Names(100001, "density"); }), UsageError);
+}
+
 TEST_CASE("no file is written twice, nor over one that is read") {
     CHECK_THROWS_WITH(planJobs(lineOf({"a.vdb", "b.vdb"}, "o.vtu"), noGrids),
                       "a.vdb and b.vdb would both be written to o.vtu; put {stem} or {frame} into OUT");

@@ -1,5 +1,5 @@
 /// @file Frames.cc
-/// Parsing by regular expressions: these are short texts.
+/// Parsing by regular expressions, but for what may be long: they recurse.
 #include "batch/Frames.h"
 
 #include "UsageError.h"
@@ -13,7 +13,7 @@
 
 namespace {
 
-constexpr std::size_t kMostFrames = 1000000;
+constexpr std::size_t kMostFrames = 100000;
 
 /// Where the file's name begins.
 std::size_t nameStart(const std::string& path) {
@@ -49,17 +49,27 @@ std::vector<std::int64_t> parseFrames(const std::string& list) {
 }
 
 std::optional<FramePattern> FramePattern::find(const std::string& path) {
-    static const std::regex kPlace("%(?:0?([1-9]))?d|#+");
-    const std::size_t start = nameStart(path);
-    const std::string name = path.substr(start);
+    const auto at = [&](std::size_t i) { return i < path.size() ? path[i] : '\0'; };
     std::optional<FramePattern> found;
-    for (auto match = std::sregex_iterator(name.begin(), name.end(), kPlace); match != std::sregex_iterator();
-         ++match) {
+    for (std::size_t i = nameStart(path), end; i < path.size(); i = end) {
+        end = i + 1;
+        int digits = 1;
+        if (path[i] == '#') {
+            while (at(end) == '#') ++end;
+            digits = int(end - i);
+        } else if (path[i] == '%') {
+            std::size_t next = i + 1;
+            if (at(next) == '0' && at(next + 1) != 'd') ++next;
+            if (at(next) >= '1' && at(next) <= '9') digits = at(next++) - '0';
+            if (at(next) != 'd') continue;
+            end = next + 1;
+        } else {
+            continue;
+        }
         found.emplace();
-        found->mBefore = path.substr(0, start + std::size_t(match->position()));
-        found->mAfter = match->suffix();
-        const std::string text = match->str();
-        found->mDigits = text[0] == '#' ? int(text.size()) : (*match)[1].matched ? std::stoi((*match)[1]) : 1;
+        found->mBefore = path.substr(0, i);
+        found->mAfter = path.substr(end);
+        found->mDigits = digits;
     }
     return found;
 }

@@ -21,6 +21,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// A job takes some 1.3 kB.
+constexpr std::size_t kMostJobs = 100000;
+
+/// @param count  that there are already
+void requireRoom(std::size_t count) {
+    if (count == kMostJobs)
+        throw UsageError(fmt::format("more than {} meshes; make them in several runs", kMostJobs));
+}
+
 /// A file that is read, and the number in its name.
 struct Input {
     std::string path;
@@ -46,6 +55,7 @@ std::vector<Input> inputsOf(const CommandLine& line) {
         }
         if (frames.empty()) inputs.push_back({path, lastNumber(fs::path(path).stem().string()), {}});
         for (const std::int64_t frame : frames) {
+            requireRoom(inputs.size());
             const std::string number = pattern->number(frame);
             inputs.push_back({pattern->path(number), number, pattern});
         }
@@ -166,7 +176,10 @@ std::vector<Job> planJobs(const CommandLine& line, const ListGrids& listGrids) {
             continue;
         }
         try {
-            for (const std::string& grid : listGrids(input.path)) jobs.push_back(makeJob(line, input, grid));
+            for (const std::string& grid : listGrids(input.path)) {
+                requireRoom(jobs.size());
+                jobs.push_back(makeJob(line, input, grid));
+            }
         } catch (const UsageError&) {
             throw;
         } catch (const std::exception& error) {
