@@ -26,20 +26,6 @@ public:
     }
     bool stopped() const { return mStopped; }
 
-    /// @brief A task, from its begin to its end, or a loop of tasks.
-    /// @details Whoever comes or goes sees what those before wrote. TBB takes care of that as well, but the
-    /// thread sanitizer does not see into TBB, only this.
-    class Visit {
-    public:
-        explicit Visit(Interrupt& host) : mHost(host) { mHost.meet(); }
-        ~Visit() { mHost.meet(); }
-        Visit(const Visit&) = delete;
-        Visit& operator=(const Visit&) = delete;
-
-    private:
-        Interrupt& mHost;
-    };
-
     /// Stages follow one another, and do not nest.
     void startStage(const char* name) {
         mLoops = mLoop = 0;
@@ -76,11 +62,8 @@ public:
     };
 
 private:
-    void meet() { mVisits.fetch_add(1, std::memory_order_acq_rel); }
-
     openvdb::util::NullInterrupter* mInterrupter;
     std::atomic<bool> mStopped{false};
-    std::atomic<std::uint32_t> mVisits{0};
     int mLoops = 0, mLoop = 0;
 };
 
@@ -92,10 +75,8 @@ template <typename Body>
 void parallelRanges(std::int64_t count, Interrupt& interrupt, Body&& body) {
     constexpr std::int64_t kGrain = 32;
     Interrupt::Loop loop(interrupt, count);
-    const Interrupt::Visit whole(interrupt);
     tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, count, kGrain),
                       [&](const tbb::blocked_range<std::int64_t>& range) {
-                          const Interrupt::Visit task(interrupt);
                           if (interrupt.poll(loop.percent())) return;
                           body(range.begin(), range.end());
                           loop.add(range.end() - range.begin());
@@ -105,9 +86,7 @@ void parallelRanges(std::int64_t count, Interrupt& interrupt, Body&& body) {
 /// The same for few and heavy items: call @a body(i) for each.
 template <typename Body>
 void parallelEach(std::int64_t count, Interrupt& interrupt, Body&& body) {
-    const Interrupt::Visit whole(interrupt);
     tbb::parallel_for(std::int64_t(0), count, [&](std::int64_t i) {
-        const Interrupt::Visit task(interrupt);
         if (!interrupt.poll()) body(i);
     });
 }

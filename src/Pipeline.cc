@@ -76,6 +76,16 @@ int topLevel(const Options& options, double spacing, const Layout& layout) {
     return std::min(fitting, int(std::floor(std::log2(*options.maxSize / spacing))));
 }
 
+/// @return the sharpest bounds that are proven for all tets of a run (docs/angles.md).
+/// @param passed  whether the guard of version 3 has left no tet beyond its limits
+AngleRange provenAngles(int tiger, const Flips& flips, bool passed, const BoundaryCounts& boundary) {
+    constexpr AngleRange kResolved{11.47, 157.59}; // theorem 2, and what repair lets pass
+    if (tiger == 3 && passed) return boundary.filled > 0 ? kResolved : AngleRange{kGuardMin, kGuardMax};
+    if (tiger == 2 && flips.conflicts == 0) return kResolved;
+    if (tiger == 2 && flips.conflicts == flips.lastResort) return {11.46, kResolved.max}; // theorem 3
+    return {8.54, 164.18};
+}
+
 /// All stages.
 /// @param margin  of Field::surfaceTiles()
 /// @return false where that is not enough
@@ -120,6 +130,7 @@ bool mesh(const Field& field, const Frame& frame, const Options& options, int ma
         return Flips();
     });
     if (report.cancelled) return true;
+    bool passed = false;
     if (isThird) {
         const Guarded guarded = stage("guard", [&] {
             return guardAngles(field, tau, vertices, {cuts->arrows, labels, destinations, *quality},
@@ -127,6 +138,7 @@ bool mesh(const Field& field, const Frame& frame, const Options& options, int ma
         });
         report.flagged = guarded.count;
         report.guardRounds = guarded.rounds;
+        passed = guarded.tilesWithBad == 0;
         flips = quality->flips();
         quality.reset();
         cuts.reset();
@@ -184,11 +196,9 @@ bool mesh(const Field& field, const Frame& frame, const Options& options, int ma
             "the shape is thinner than the lattice can hold, and nothing of it is left; use a finer spacing");
     }
     requireFewTets(report.tets, options);
-    // Theorem 3; where Algorithm 5 met no conflict the resolution sufficed. Version 3 has no better bound
-    // that holds whatever the surface.
-    const bool resolved = options.tiger == 2 && flips.conflicts == 0;
-    report.angleMin = resolved ? 11.47 : 8.54;
-    report.angleMax = resolved ? 157.59 : 164.18;
+    const AngleRange proven = provenAngles(options.tiger, flips, passed, repair.counts);
+    report.angleMin = proven.min;
+    report.angleMax = proven.max;
 
     const bool wantsChunks = stage("begin", [&] { return sink.begin(totalsOf(numbering, frame)); });
     if (report.cancelled) return true;

@@ -11,6 +11,7 @@ seconds=$1
 shift
 [ $# -gt 0 ] || set -- vdb mesh options
 
+tools/install_deps.sh --fuzz
 cmake --preset fuzz -DVDBTET_WERROR=ON
 cmake --build --preset fuzz
 programs=$PWD/build/fuzz/tests/fuzz

@@ -2,7 +2,7 @@
 # Installs what vdbtet is built from, on Debian 12, Ubuntu 24.04 and later. Packages that are there already are left
 # alone, and when none is missing neither the network nor root is needed.
 #
-# usage: tools/install_deps.sh [--tests] [--bench] [--ci]
+# usage: tools/install_deps.sh [--tests] [--bench] [--fuzz] [--coverage] [--ci]
 set -eu
 
 packages="g++ cmake ninja-build libopenvdb-dev libtbb-dev libblosc-dev zlib1g-dev libhdf5-dev libboost-iostreams-dev
@@ -11,13 +11,15 @@ for option in "$@"; do
     case $option in
     --tests) packages="$packages catch2 python3" ;;
     --bench) packages="$packages libbenchmark-dev python3" ;;
+    --fuzz) packages="$packages clang libclang-rt-dev" ;;
+    --coverage) packages="$packages gcovr" ;;
     --ci)
         packages="$packages clang-format-14 python3-vtk9 python3-h5py python3-meshio python3-gmsh tetgen
             dpkg-dev man-db zsh fish"
         # Ubuntu has Chromium as a snap only; there what needs a browser is skipped.
         grep -qx 'ID=ubuntu' /etc/os-release || packages="$packages chromium chromium-driver"
         ;;
-    *) echo "usage: tools/install_deps.sh [--tests] [--bench] [--ci]" >&2 && exit 2 ;;
+    *) echo "usage: tools/install_deps.sh [--tests] [--bench] [--fuzz] [--coverage] [--ci]" >&2 && exit 2 ;;
     esac
 done
 

@@ -32,10 +32,11 @@ PaddedMask edgesByEnds(const PaddedMask& a, const PaddedMask& b, int direction, 
     static const auto kEdges = edgesOfTile();
     const bcc::Step step = bcc::shortEdge(bcc::A, direction);
     constexpr int kFirst = PaddedMask::bit(0, 0, -1) / PaddedMask::kRowBits;
-    const std::uint16_t* far = b.rows + step.x * PaddedMask::kDim + step.y;
+    const int toFar = step.x * PaddedMask::kDim + step.y;
     PaddedMask edges;
     for (int r = kFirst; r < PaddedMask::kRows; ++r)
-        edges.rows[r] = std::uint16_t(of(a.rows[r], far[r] << -step.z) & kEdges[direction].rows[r]);
+        edges.rows[r] =
+            std::uint16_t(of(a.rows[r], b.rows[r + toFar] << -step.z) & kEdges[direction].rows[r]);
     return edges;
 }
 PaddedMask edgesWithOneEnd(const PaddedMask& a, const PaddedMask& b, int direction) {

@@ -98,6 +98,22 @@ struct Parcel {
     }
 };
 
+/// @brief What a task of the pipeline does from its begin to its end, or the pipeline as a whole.
+/// @details Whoever comes or goes sees what those before have written. TBB takes care of that as well, but
+/// the thread sanitizer does not see into its pipeline, only this.
+class Visit {
+public:
+    explicit Visit(std::atomic<std::uint64_t>& count) : mCount(count) { meet(); }
+    ~Visit() { meet(); }
+    Visit(const Visit&) = delete;
+    Visit& operator=(const Visit&) = delete;
+
+private:
+    void meet() { mCount.fetch_add(1, std::memory_order_acq_rel); }
+
+    std::atomic<std::uint64_t>& mCount;
+};
+
 using Emitters = tbb::enumerable_thread_specific<std::unique_ptr<TileEmitter>>;
 
 AngleSum sumOf(Emitters& emitters, const Numbering& numbering) {
@@ -116,9 +132,9 @@ public:
 
     void run() {
         Units units(mGrading, mNumbering);
-        const Interrupt::Visit whole(mInterrupt);
+        const Visit whole(mVisits);
         const auto cut = [&](tbb::flow_control& flow) -> Unit {
-            const Interrupt::Visit task(mInterrupt);
+            const Visit task(mVisits);
             if (!units.done() && !mInterrupt.stopped()) return units.next();
             flow.stop();
             return {};
@@ -142,7 +158,7 @@ private:
     }
 
     Parcel* make(const Unit& unit) {
-        const Interrupt::Visit task(mInterrupt);
+        const Visit task(mVisits);
         Parcel* parcel = nullptr;
         if (!mSpare.try_pop(parcel)) parcel = mParcels.push_back(std::make_unique<Parcel>(mWants))->get();
         MeshChunk& chunk = parcel->chunk;
@@ -181,7 +197,7 @@ private:
     }
 
     void pass(Parcel& parcel) {
-        const Interrupt::Visit task(mInterrupt);
+        const Visit task(mVisits);
         if (mInterrupt.poll(int(100.0 * double(mPassed) / double(mNumbering.tets())))) return;
         mSink.chunk(parcel.chunk);
         mPassed += std::int64_t(parcel.chunk.tets.size());
@@ -194,7 +210,8 @@ private:
     MeshSink& mSink;
     Interrupt& mInterrupt;
     const MeshWants mWants;
-    std::atomic<std::int64_t> mPassed{0};                     ///< tets the sink has got
+    std::atomic<std::int64_t> mPassed{0}; ///< tets the sink has got
+    std::atomic<std::uint64_t> mVisits{0};
     tbb::concurrent_vector<std::unique_ptr<Parcel>> mParcels; ///< all, wherever an exception leaves them
     tbb::concurrent_queue<Parcel*> mSpare;
 };

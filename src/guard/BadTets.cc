@@ -29,9 +29,11 @@ public:
     BadTetFinder(const Vertices& vertices, const Flips& flips)
         : mVertices(vertices), mTets(vertices, flips) {}
 
-    void find(TileRef tile, std::vector<VertexRef>& found) {
+    /// @return whether there is a bad tet in the mesh
+    bool find(TileRef tile, std::vector<VertexRef>& found) {
         mPositions.load(mVertices, tile);
-        if (!mPositions.anyMoved()) return;
+        if (!mPositions.anyMoved()) return false;
+        mAnyBad = false;
         mTile = tile;
         mFound = &found;
         mStates.load(mVertices, tile);
@@ -61,6 +63,7 @@ public:
         }
         mTets.forEachTetOfB(addFlipped);
         judge();
+        return mAnyBad;
     }
 
 private:
@@ -91,6 +94,7 @@ private:
         });
         for (int i = 0; i < mCount; ++i) {
             if (mBad[i] == 0) continue;
+            mAnyBad = true;
             for (const int local : mToFlag[std::size_t(i)]) {
                 if (mStates.manifold(local)) mFound->push_back(vertexOf(local));
             }
@@ -113,6 +117,7 @@ private:
     LocalPositions mPositions;
     TileTets mTets;
     std::vector<VertexRef>* mFound = nullptr;
+    bool mAnyBad = false;
     int mCount = 0;
     double mPlaces[12][kBatch] = {};
     std::array<LocalOctahedron, kBatch> mToFlag;
@@ -122,13 +127,14 @@ private:
 } // namespace
 
 std::vector<VertexRef> verticesOfBadTets(const Vertices& vertices, const Flips& flips,
-                                         const std::vector<TileRef>& tiles, Interrupt& interrupt) {
+                                         const std::vector<TileRef>& tiles, std::vector<char>& hasBad,
+                                         Interrupt& interrupt) {
     std::vector<std::vector<VertexRef>> parts(tiles.size());
     tbb::enumerable_thread_specific<std::unique_ptr<BadTetFinder>> finders(
         [&] { return std::make_unique<BadTetFinder>(vertices, flips); });
     parallelRanges(std::int64_t(tiles.size()), interrupt, [&](std::int64_t begin, std::int64_t end) {
         BadTetFinder& finder = *finders.local();
-        for (std::int64_t i = begin; i < end; ++i) finder.find(tiles[i], parts[i]);
+        for (std::int64_t i = begin; i < end; ++i) hasBad[tiles[i]] = finder.find(tiles[i], parts[i]) ? 1 : 0;
     });
     std::vector<VertexRef> all;
     for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());

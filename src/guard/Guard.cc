@@ -4,6 +4,7 @@
 
 #include "guard/BadTets.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace vdbtet {
@@ -24,9 +25,10 @@ public:
         mThreshold.flagged = &guarded.flagged;
         std::vector<TileRef> tiles(mVertices.layout.surfaceTiles.size());
         for (std::size_t t = 0; t < tiles.size(); ++t) tiles[t] = TileRef(t);
+        std::vector<char> hasBad(tiles.size());
         while (true) {
             const Flips flips = mProducts.flips.flips();
-            const std::vector<VertexRef> bad = verticesOfBadTets(mVertices, flips, tiles, mInterrupt);
+            const std::vector<VertexRef> bad = verticesOfBadTets(mVertices, flips, tiles, hasBad, mInterrupt);
             VertexMasks changed(guarded.flagged.size());
             std::int64_t added = 0;
             for (const VertexRef& v : bad) {
@@ -35,7 +37,10 @@ public:
                 changed[v.tile][v.lattice].set(v.vertex);
                 ++added;
             }
-            if (added == 0 || mInterrupt.stopped()) return guarded;
+            if (added == 0 || mInterrupt.stopped()) {
+                guarded.tilesWithBad = std::count(hasBad.begin(), hasBad.end(), 1);
+                return guarded;
+            }
             guarded.count += added;
             ++guarded.rounds;
             makeAnew(changed);

@@ -18,6 +18,7 @@ struct Guarded {
     VertexMasks flagged;    ///< of each surface tile, the vertices whose rule is that of version 2
     std::int64_t count = 0; ///< of them
     int rounds = 0;
+    std::int64_t tilesWithBad = 0; ///< that own a tet in the mesh that is bad still
 };
 
 /// The products that depend on what is flagged.
@@ -35,9 +36,9 @@ struct Guardable {
 /// @details Bad are tets in the mesh with an angle beyond those above, with the whole octahedron if it is
 /// flipped; and those dropped because all their vertices are manifold: there the shape is thin, and the rule
 /// of version 2 keeps more of it. A flagged vertex moves along an edge, and at most half of it, as those of
-/// version 2 do; so a tet that still has a bad angle has flagged vertices alone, for which (8.54, 164.18) is
-/// proven. Labels are a fixpoint of all arrows, so they are made anew as a whole, by masks; all else in the
-/// tiles that they change.
+/// version 2 do; so a tet that still has a bad angle has flagged vertices alone, and so has its octahedron if
+/// that is flipped: for these (8.54, 164.18) is proven (docs/angles.md, theorem 4). Labels are a fixpoint of
+/// all arrows, so they are made anew as a whole, by masks; all else in the tiles that they change.
 Guarded guardAngles(const Field& field, double tau, const Vertices& vertices, const Guardable& products,
                     Interrupt& interrupt);
 

@@ -2,9 +2,9 @@
 
 usage: compare_versions.py --vdb-tet EXE [--voxels 1,2] [--noise N] [GRID.vdb...]
 
-Angles, counts and times are those of a dry run on one thread; volume, components and Euler number those of the
-boundary, which a graded mesh has alike, bit for bit, and sooner. --noise adds so many random solids, as rough as the
-lattice can hardly resolve; they need python3-openvdb.
+Angles, counts and times are those of a dry run on one thread; volume, components, Euler number and the distance of
+points and triangles from the zero set those of the boundary, which a graded mesh has alike, bit for bit, and sooner.
+--noise adds so many random solids, as rough as the lattice can hardly resolve. Needs python3-openvdb.
 """
 
 import argparse
@@ -15,6 +15,7 @@ import subprocess
 import tempfile
 
 import numpy as np
+import pyopenvdb
 
 RULES = [("1", ["--tiger", "1"]), ("2", ["--tiger", "2"])] + [
     (f"3, τ = {tau}", ["--tiger", "3", "--tau", tau]) for tau in ("0.5", "0.6", "0.7", "0.77")
@@ -57,7 +58,32 @@ def figures_of(points, triangles):
     }
 
 
-def mesh(exe, grid, voxels, options, folder):
+class LevelSet:
+    """The values of a grid, between voxels trilinear."""
+
+    def __init__(self, path):
+        grid = pyopenvdb.read(str(path), pyopenvdb.readAllGridMetadata(str(path))[0].name)
+        low, high = (np.array(corner) for corner in grid.evalActiveVoxelBoundingBox())
+        self.low = low - 1
+        self.values = np.empty(high - low + 3, np.float32)
+        grid.copyToArray(self.values, ijk=tuple(int(i) for i in self.low))
+        self.voxel = min(grid.transform.voxelSize())
+        corners = [grid.transform.worldToIndex(c) for c in ((0.0, 0.0, 0.0), *np.eye(3).tolist())]
+        self.origin = np.array(corners[0])
+        self.axes = np.array(corners[1:]) - self.origin
+
+    def off(self, places):
+        """How far places are off the zero set at most, in voxels, as far as values are distances."""
+        index = places @ self.axes + self.origin - self.low
+        cell = np.clip(np.floor(index).astype(int), 0, np.array(self.values.shape) - 2)
+        there = np.zeros(len(places))
+        for corner in np.ndindex(2, 2, 2):
+            weight = np.where(np.array(corner) == 1, index - cell, 1.0 - index + cell).prod(axis=1)
+            there += weight * self.values[tuple((cell + corner).T)]
+        return float(np.abs(there).max() / self.voxel)
+
+
+def mesh(exe, grid, levels, voxels, options, folder):
     """What a version makes of a grid, or None where nothing is left of it."""
     common = [exe, str(grid), "-q", "-v", voxels, *options, "--report", str(folder / "report.json")]
     if subprocess.run([*common, "--dry-run", "-j", "1"], check=False).returncode != 0:
@@ -66,15 +92,16 @@ def mesh(exe, grid, voxels, options, folder):
     surface = folder / "surface.obj"
     outputs = [str(folder / "mesh.vtu"), "--grade", "--surface", str(surface)]
     subprocess.run([*common, *outputs], check=True)
-    result.update(figures_of(*read_obj(surface)))
+    points, triangles = read_obj(surface)
+    result.update(figures_of(points, triangles))
+    result["points off"] = levels.off(points[np.unique(triangles)])
+    result["centres off"] = levels.off(points[triangles].mean(axis=1))
     result["band"] = sum(stage["seconds"] for stage in result["stages"] if stage["name"] in BAND)
     return result
 
 
 def write_noise(path, seed):
     """A ball of 20 voxels' radius, eaten by waves of 5 to 12 voxels."""
-    import pyopenvdb
-
     random = np.random.default_rng(seed)
     place = np.stack(np.meshgrid(*[np.arange(-28.0, 29.0)] * 3, indexing="ij"), axis=-1)
     values = np.linalg.norm(place, axis=-1) - 20.0
@@ -97,8 +124,9 @@ def print_summary(voxels, results):
     """A line a rule, over all grids that every rule has a mesh of."""
     grids = [grid for grid in results if all(results[grid].values())]
     print(f"\n{voxels} voxels, {len(grids)} grids:\n")
-    row("version", "angles", "0.01 %", "0.1 %", "1 %", "volume", "other topology", "flagged", "rounds", "band")
-    row("---", *["--:"] * 9)
+    row("version", "angles", "0.01 %", "0.1 %", "1 %", "volume", "other topology", "off", "flagged", "rounds",
+        "band")
+    row("---", *["--:"] * 10)
     for rule, _ in RULES:
         runs = [results[grid][rule] for grid in grids]
         base = [results[grid]["2"] for grid in grids]
@@ -117,6 +145,7 @@ def print_summary(voxels, results):
             *tails,
             f"{min(volumes):.2f} … {max(volumes):.2f} %",
             differ,
+            f"{max(r['points off'] for r in runs):.1g}, {max(r['centres off'] for r in runs):.2f}",
             sum(r["flagged"] for r in runs),
             max(r["guardRounds"] for r in runs),
             f"{statistics.median(times):.1f}",
@@ -154,8 +183,9 @@ def main():
             write_noise(args.grids[-1], seed)
         for voxels in args.voxels.split(","):
             for grid in args.grids:
+                levels = LevelSet(grid)
                 results.setdefault(voxels, {})[grid.stem] = {
-                    rule: mesh(args.vdb_tet, grid, voxels, options, pathlib.Path(name))
+                    rule: mesh(args.vdb_tet, grid, levels, voxels, options, pathlib.Path(name))
                     for rule, options in RULES
                 }
     for voxels, grids in results.items():

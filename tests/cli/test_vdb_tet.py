@@ -154,7 +154,9 @@ class VdbTet(ToolTest):
         self.assertEqual((two["tiger"], three["tiger"], low["tiger"]), (2, 3, 3))
         self.assertGreater(three["angles"]["min"], two["angles"]["min"])
         self.assertLess(three["angles"]["max"], two["angles"]["max"])
-        self.assertEqual((three["angles"]["provenMin"], three["angles"]["provenMax"]), (8.54, 164.18))
+        for report, proven in (two, (11.47, 157.59)), (three, (18.0, 146.0)), (low, (18.0, 146.0)):
+            self.assertEqual((report["angles"]["provenMin"], report["angles"]["provenMax"]), proven)
+        self.assertIn("proven to lie between 18.00 and 146.00\n", text)
         self.assertEqual((two["qualityFlips"], two["flagged"], two["guardRounds"]), (0, 0, 0))
         self.assertGreater(three["qualityFlips"], 0)
         self.assertNotEqual(three["tets"], low["tets"])

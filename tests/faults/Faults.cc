@@ -23,14 +23,23 @@ struct Counter {
     bool next() { return armed && ++count == failing; }
 };
 Counter gCounters[3];
+std::atomic<std::int64_t> gLive{0};
 
 Counter& counterOf(vdbtet::test::Fault kind) { return gCounters[int(kind)]; }
 
 void* allocate(std::size_t size, std::size_t alignment) {
     if (counterOf(vdbtet::test::Fault::Allocation).next()) return nullptr;
     if (size == 0) size = 1;
-    if (alignment <= alignof(std::max_align_t)) return std::malloc(size);
-    return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+    void* memory = alignment <= alignof(std::max_align_t)
+                       ? std::malloc(size)
+                       : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+    if (memory) ++gLive;
+    return memory;
+}
+
+void giveBack(void* memory) noexcept {
+    if (memory) --gLive;
+    std::free(memory);
 }
 
 void* allocateOrThrow(std::size_t size, std::size_t alignment) {
@@ -58,6 +67,8 @@ FaultAt::FaultAt(Fault kind, std::int64_t n) : mKind(kind) {
 
 FaultAt::~FaultAt() { counterOf(mKind).armed = false; }
 
+std::int64_t liveAllocations() { return gLive; }
+
 std::int64_t FaultAt::count() const { return counterOf(mKind).count; }
 
 } // namespace vdbtet::test
@@ -70,16 +81,16 @@ void* operator new(std::size_t size, std::align_val_t to) { return allocateOrThr
 void* operator new[](std::size_t size, std::align_val_t to) { return allocateOrThrow(size, std::size_t(to)); }
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return allocate(size, kPlain); }
 void* operator new[](std::size_t size, const std::nothrow_t&) noexcept { return allocate(size, kPlain); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
-void operator delete[](void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
+void operator delete(void* memory) noexcept { giveBack(memory); }
+void operator delete[](void* memory) noexcept { giveBack(memory); }
+void operator delete(void* memory, std::size_t) noexcept { giveBack(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { giveBack(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { giveBack(memory); }
+void operator delete[](void* memory, std::align_val_t) noexcept { giveBack(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { giveBack(memory); }
+void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { giveBack(memory); }
+void operator delete(void* memory, const std::nothrow_t&) noexcept { giveBack(memory); }
+void operator delete[](void* memory, const std::nothrow_t&) noexcept { giveBack(memory); }
 
 extern "C" {
 

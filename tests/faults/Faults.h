@@ -32,4 +32,7 @@ private:
     Fault mKind;
 };
 
+/// @return how many allocations by operator new have not been given back
+std::int64_t liveAllocations();
+
 } // namespace vdbtet::test

@@ -155,10 +155,12 @@ public:
         CAPTURE(n);
         const std::map<std::string, std::string> before = contents(path());
         End end = End::Whole;
+        const std::int64_t live = liveAllocations();
         {
             [[maybe_unused]] const auto fault = makeFault(n);
             end = endOf([&] { mRun(mFolder); });
         }
+        CHECK(liveAllocations() == live);
         if (end == End::Whole) {
             // A thread less needed it, or someone could do without.
             CHECK(contents(path()) == mWhole);
@@ -245,7 +247,7 @@ TEST_CASE("any allocation may fail") {
     }
 }
 
-TEST_CASE("any task may throw") {
+TEST_CASE("any task may throw", "[threads]") {
     const auto grid = shape();
     for (const Kind& kind : kinds()) {
         CAPTURE(kind.name);
@@ -293,7 +295,7 @@ TEST_CASE("any write may fail, in every format") {
     surface.checkRename();
 }
 
-TEST_CASE("any chunk may be refused, in every format") {
+TEST_CASE("any chunk may be refused, in every format", "[threads]") {
     const auto grid = levelSet(sphere({0.3, -0.2, 0.1}, 20.3));
     for (const MeshFormat& format : meshFormats()) {
         CAPTURE(format.name);

@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 
 // The linker's names for what -fsanitize=fuzzer counts with.
 extern "C" __attribute__((visibility("hidden"))) char __start___sancov_cntrs[], __stop___sancov_cntrs[];
@@ -57,8 +58,13 @@ bool isOwn(const void* code) {
 }
 
 /// A sanitizer has reported. Libraries have not been compiled with any, so theirs are reports by the address
-/// sanitizer alone: of signals, and of calls such as memcpy().
-void onDeath() { endEarly(!__asan_report_present() || isOwn(__asan_get_report_pc())); }
+/// sanitizer alone: of signals, and of calls such as memcpy(). It also ends what std::bad_alloc would.
+void onDeath() {
+    if (!__asan_report_present()) endEarly(true);
+    const std::string what = __asan_get_report_description();
+    const bool noMemory = what == "allocation-size-too-big" || what == "out-of-memory";
+    endEarly(!noMemory && isOwn(__asan_get_report_pc()));
+}
 
 /// Address space cannot be limited under the address sanitizer.
 void onTimer(int) {

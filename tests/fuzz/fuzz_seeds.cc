@@ -18,9 +18,10 @@ namespace {
 namespace fs = std::filesystem;
 using namespace vdbtet::test;
 
+/// Where coordinates are positive: one branch of the tree instead of eight, for small files.
 template <typename GridT = openvdb::FloatGrid>
-typename GridT::Ptr ball(const std::string& name, double radius = 4.0) {
-    const auto grid = std::make_shared<GridT>(*levelSet(sphere(Vec3d(0.3), radius), 0.5));
+typename GridT::Ptr ball(const std::string& name, double radius = 2.0) {
+    const auto grid = std::make_shared<GridT>(*levelSet(sphere(Vec3d(radius + 2.3), radius), 0.5));
     grid->setName(name);
     return grid;
 }
@@ -41,20 +42,20 @@ void writeVolumes(const fs::path& folder) {
     shared->setName("shared");
     const auto vectors = openvdb::Vec3SGrid::create(openvdb::Vec3s(1.0f));
     vectors->setName("v");
-    vectors->fill(openvdb::CoordBBox(openvdb::Coord(-2), openvdb::Coord(2)), openvdb::Vec3s(2.0f));
-    const auto fog = fogVolume(sphere(Vec3d(0.0), 3.0), shearedTransform(1.0));
+    vectors->fill(openvdb::CoordBBox(openvdb::Coord(1), openvdb::Coord(4)), openvdb::Vec3s(2.0f));
+    const auto fog = fogVolume(sphere(Vec3d(9.0), 3.0), shearedTransform(1.0));
     fog->setName("density");
-    write("none.vdb", {ball("ball", 2.0)}, COMPRESS_NONE);
+    write("none.vdb", {ball("ball", 1.0)}, COMPRESS_NONE);
     write("mask.vdb", {ball("ball")}, COMPRESS_ACTIVE_MASK);
     write("zip.vdb", {ball("ball")}, COMPRESS_ZIP | COMPRESS_ACTIVE_MASK);
     write("default.vdb", {ball("ball")}, Archive::DEFAULT_COMPRESSION_FLAGS);
     write("half.vdb", {half}, COMPRESS_ACTIVE_MASK);
-    write("double.vdb", {ball<openvdb::DoubleGrid>("ball", 2.0)}, COMPRESS_ACTIVE_MASK);
+    write("double.vdb", {ball<openvdb::DoubleGrid>("ball", 1.0)}, COMPRESS_ACTIVE_MASK);
     write("fog.vdb", {fog, vectors}, COMPRESS_ACTIVE_MASK);
     write("shared.vdb", {twin, shared}, COMPRESS_ACTIVE_MASK);
     write("namesakes.vdb", {ball("ball", 1.0), ball("ball", 1.0), ball("", 1.0)}, COMPRESS_ACTIVE_MASK);
-    write("tiles.vdb", {constantTiles(8, {openvdb::Coord(0), openvdb::Coord(8, 0, 0)}, true)}, COMPRESS_NONE);
-    write("large_tile.vdb", {constantTiles(128, {openvdb::Coord(0)}, false)}, COMPRESS_NONE);
+    write("tiles.vdb", {constantTiles(8, {openvdb::Coord(0), openvdb::Coord(8, 0, 0)}, true)}, COMPRESS_ACTIVE_MASK);
+    write("large_tile.vdb", {constantTiles(128, {openvdb::Coord(0)}, false)}, COMPRESS_ACTIVE_MASK);
     write("empty.vdb", {openvdb::FloatGrid::create(1.0f)}, COMPRESS_NONE);
     write("nothing.vdb", {}, COMPRESS_NONE);
     std::ofstream stream(folder / "stream.vdb", std::ios::binary);

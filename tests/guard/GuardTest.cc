@@ -19,14 +19,24 @@ std::vector<TileRef> allTiles(const ThirdStages& stages) {
     return tiles;
 }
 
-std::vector<VertexRef> badVertices(ThirdStages& stages) {
-    return verticesOfBadTets(stages.vertices, stages.flips.flips(), allTiles(stages), stages.interrupt);
+struct Bad {
+    std::vector<VertexRef> vertices;
+    std::int64_t tiles; ///< with a bad tet in the mesh
+};
+
+Bad findBad(ThirdStages& stages) {
+    const std::vector<TileRef> tiles = allTiles(stages);
+    std::vector<char> hasBad(tiles.size());
+    Bad bad;
+    bad.vertices = verticesOfBadTets(stages.vertices, stages.flips.flips(), tiles, hasBad, stages.interrupt);
+    bad.tiles = std::count(hasBad.begin(), hasBad.end(), 1);
+    return bad;
 }
 
 void requireGuarded(const openvdb::FloatGrid& grid, double voxels, double tau, bool mustFlag) {
     CAPTURE(voxels, tau);
     ThirdStages stages(grid, voxels, tau);
-    const bool hadBad = !badVertices(stages).empty();
+    const bool hadBad = !findBad(stages).vertices.empty();
     const Guarded guarded = stages.guard();
     CHECK((guarded.rounds > 0) == hadBad);
     if (mustFlag) CHECK(guarded.rounds > 0);
@@ -35,8 +45,9 @@ void requireGuarded(const openvdb::FloatGrid& grid, double voxels, double tau, b
     CHECK(guarded.count == count);
 
     std::int64_t unflagged = 0;
-    for (const VertexRef& v : badVertices(stages))
-        unflagged += !guarded.flagged[v.tile][v.lattice].test(v.vertex);
+    const Bad left = findBad(stages);
+    CHECK(guarded.tilesWithBad == left.tiles);
+    for (const VertexRef& v : left.vertices) unflagged += !guarded.flagged[v.tile][v.lattice].test(v.vertex);
     CHECK(unflagged == 0);
 
     const ThirdStages fresh(grid, voxels, tau, guarded.flagged);

@@ -1,15 +1,20 @@
 /// The bounds of docs/angles.md are proved, wrong ones are refuted, and all threads tell the same.
 #include "support/Catch.h"
 
+#include "flips/Slices.h"
 #include "prove_angles/Theorems.h"
 
 #include <tbb/global_control.h>
+
+#include <cmath>
 
 namespace vdbtet::test {
 
 using namespace proof;
 
 namespace {
+
+constexpr double kDegree = 0.017453292519943295;
 
 const Theorem& theorem(const std::string& id) {
     for (const Theorem& one : theorems()) {
@@ -74,6 +79,22 @@ TEST_CASE("wrong bounds are refuted by a box all of which violates them", "[prov
     }
     REQUIRE(!proveTheorem(theorem("13"), {0.0, 180.0, 1.07}).proved);
     REQUIRE(!proveTheorem(theorem("6.2.2"), {12.0, 147.5}).proved); // more than the policy looks for
+}
+
+TEST_CASE("slices of the greater worth carry the bounds of tets and active edges over to version 3",
+          "[prove]") {
+    const auto worthOf = [](const Bound& bound) {
+        return worth({false, std::cos(bound.max * kDegree), std::cos(bound.min * kDegree)});
+    };
+    const auto boundOf = [](double worth) { return Bound{worth, 180.0 - worth / 0.54}; };
+    const Bound always = theorem("21").bound;
+    const Bound active = boundOf(worthOf(theorem("24").bound) - kTieAngle),
+                flipped = boundOf(worthOf(always) + 0.1);
+    for (const Bound& bound : {active, flipped}) {
+        REQUIRE(worthOf(bound) == Approx(bound.min));
+        REQUIRE(bound.min > always.min);
+        REQUIRE(bound.max < always.max);
+    }
 }
 
 TEST_CASE("a proof is the same on any number of threads", "[prove]") {

@@ -2,18 +2,20 @@
 """Batters vdb_tet with damaged files, and counts what comes of it.
 
 usage: batter.py VDB_TET FOLDER_OR_FILE... [--mutations N] [--seed S] [--limit-gib G] [--seconds T]
-                 [--check COMMAND] [--extension E] [--keep FOLDER]
+                 [--arguments A] [--check COMMAND] [--extension E] [--keep FOLDER]
 
 Every .vdb is meshed as it is; with --mutations, so many damaged copies of the valid ones are, too. A run is bad that
 ends by a signal, takes too long or too much memory, leaves a file behind that it says it has not written, says nothing
 or more than a line of why, or writes a mesh that COMMAND MESH, such as build/release/tests/robustness/vdbtet_check_mesh
-with the extension meshb, does not end with 0 for. The exit code is 1 if any run is bad.
+with the extension meshb, does not end with 0 for. The exit code is 1 if any run is bad. Ctrl-C shows the counts so far.
+
+A damaged file may hold a large tile, whose mesh takes its time; so mutations want a limit among the arguments, such as
+"--voxels 2 --max-tiles 1000".
 """
 import argparse
 import collections
 import os
 import random
-import resource
 import shlex
 import signal
 import subprocess
@@ -51,22 +53,56 @@ def check(command, mesh):
     return "" if done.returncode == 0 else done.stdout + done.stderr or f"exit {done.returncode}"
 
 
+Done = collections.namedtuple("Done", "returncode stdout stderr gib")
+
+
+def run_limited(command, seconds):
+    """@return how a command ended, and the memory of the largest of its processes; None where it takes too long"""
+    def expire(*_):
+        raise TimeoutError
+
+    with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
+        process = subprocess.Popen(command, stdout=out, stderr=err)
+        signal.signal(signal.SIGALRM, expire)
+        try:
+            signal.setitimer(signal.ITIMER_REAL, seconds)
+            _, status, usage = os.wait4(process.pid, 0)
+        except TimeoutError:
+            process.kill()
+            process.wait()
+            return None
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        texts = []
+        for stream in (out, err):
+            stream.seek(0)
+            texts.append(stream.read().decode(errors="replace"))
+        return Done(process.returncode, *texts, usage.ru_maxrss / (1 << 20))
+
+
 def run(vdb_tet, path, folder, options):
-    """@return the outcome of meshing one file: a word, and what was said"""
+    """@return the outcome of meshing one file: a word, what was said, and the GiB it took"""
     name = "out." + options.extension
     out = os.path.join(folder, name)
-    command = [vdb_tet, path, out, "-q", "--voxels", "2"]
-    try:
-        done = subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=options.seconds)
-    except subprocess.TimeoutExpired as expired:
-        return "HANG", str(expired)
-    said = done.stderr.strip()
+    done = run_limited([vdb_tet, path, out, "-q", *shlex.split(options.arguments)], options.seconds)
     left = sorted(os.listdir(folder))
     judged = ""
     if os.path.exists(out):
-        if done.returncode == 0 and options.check:
+        if done and done.returncode == 0 and options.check:
             judged = check(options.check, out)
         os.remove(out)
+    if not done:
+        return "HANG", f"more than {options.seconds} s", 0
+    outcome, said = judge(done, left, name, judged, options.limit_gib)
+    return outcome, said, done.gib
+
+
+def judge(done, left, name, judged, limit):
+    """@return a word for how a run ended, in capitals where it is bad, and what was said"""
+    said = done.stderr.strip()
+    if done.gib > limit:
+        return "HEAVY", f"{done.gib:.2f} GiB"
     if done.returncode < 0:
         return "CRASH", signal.Signals(-done.returncode).name
     if done.returncode == 0:
@@ -88,6 +124,7 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--limit-gib", type=float, default=2)
     parser.add_argument("--seconds", type=float, default=20)
+    parser.add_argument("--arguments", default="--voxels 2", help="of vdb_tet")
     parser.add_argument("--check", help="a command that judges the meshes")
     parser.add_argument("--extension", default="vtu", help="of the meshes")
     parser.add_argument("--keep", help="a folder to put copies of what came out bad into")
@@ -99,13 +136,10 @@ def main():
     files = [path for path in files if path.endswith(".vdb")]
     counts, bad, heaviest = collections.Counter(), [], 0
 
-    def judge(name, path, folder):
+    def batter(name, path, folder):
         nonlocal heaviest
-        outcome, said = run(options.vdb_tet, path, folder, options)
-        peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / (1 << 20)  # of the largest so far
-        if peak > max(heaviest, options.limit_gib):
-            outcome, said = "HEAVY", f"{peak:.2f} GiB"
-        heaviest = max(heaviest, peak)
+        outcome, said, gib = run(options.vdb_tet, path, folder, options)
+        heaviest = max(heaviest, gib)
         counts[outcome] += 1
         if outcome.isupper():
             bad.append(name)
@@ -117,15 +151,18 @@ def main():
     with tempfile.TemporaryDirectory() as top:
         folder = os.path.join(top, "out")
         os.mkdir(folder)
-        for path in files:
-            judge(os.path.basename(path), path, folder)
-        rng = random.Random(options.seed)
-        sources = [open(path, "rb").read() for path in files] if options.mutations else []
-        damaged = os.path.join(top, "damaged.vdb")
-        for number in range(options.mutations):
-            with open(damaged, "wb") as stream:
-                stream.write(mutated(sources[number % len(sources)], rng))
-            judge(f"seed{options.seed}_{number}.vdb", damaged, folder)
+        try:
+            for path in files:
+                batter(os.path.basename(path), path, folder)
+            rng = random.Random(options.seed)
+            sources = [open(path, "rb").read() for path in files] if options.mutations else []
+            damaged = os.path.join(top, "damaged.vdb")
+            for number in range(options.mutations):
+                with open(damaged, "wb") as stream:
+                    stream.write(mutated(sources[number % len(sources)], rng))
+                batter(f"seed{options.seed}_{number}.vdb", damaged, folder)
+        except KeyboardInterrupt:
+            pass
 
     for outcome, count in sorted(counts.items()):
         print(f"{count:7} {outcome}")

@@ -248,6 +248,22 @@ FloatGrid::Ptr randomCuts(int n, std::uint64_t seed, double insideShare) {
     return grid;
 }
 
+FloatGrid::Ptr middleCuts(int n, std::uint64_t seed, double insideShare, double shortShare) {
+    auto grid = FloatGrid::create(1.0f);
+    auto accessor = grid->getAccessor();
+    Random random(seed);
+    // With zeros between the ends the interpolant is (1-t)^3 a + t^3 b: the root is where linear
+    // interpolation between the cube roots of a and b has it.
+    const CoordBBox block(Coord(0), Coord(2 * n));
+    forEachVoxel(CoordBBox(Coord(-3), Coord(2 * n + 3)), [&](const Coord& ijk) {
+        const int odd = (ijk.x() & 1) + (ijk.y() & 1) + (ijk.z() & 1);
+        const double size = random.uniform(0.997, 1.003) * (random.uniform(0, 1) < shortShare ? 0.06 : 1.0);
+        const bool inside = random.uniform(0, 1) < insideShare && block.isInside(ijk);
+        accessor.setValue(ijk, float(odd == 1 || odd == 2 ? 0.0 : inside ? -size : size));
+    });
+    return grid;
+}
+
 FloatGrid::Ptr constantTiles(int edge, const std::vector<Coord>& tiles, bool active) {
     auto grid = FloatGrid::create(3.0f);
     grid->setGridClass(openvdb::GRID_LEVEL_SET);

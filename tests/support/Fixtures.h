@@ -67,6 +67,9 @@ openvdb::FloatGrid::Ptr randomSigns(int n, std::uint64_t seed);
 /// Random cuts with one root on every short edge of the lattice of two voxels, so that any root finder
 /// finds the same. The lattice vertices in [0,2n]^3 are random; that share of them is inside.
 openvdb::FloatGrid::Ptr randomCuts(int n, std::uint64_t seed, double insideShare = 0.5);
+/// Random signs at the vertices of the lattice of two voxels, in [0,2n]^3, and cut points as near to the
+/// middle of short edges as a thousandth; but vertices of the short share have theirs at 0.28.
+openvdb::FloatGrid::Ptr middleCuts(int n, std::uint64_t seed, double insideShare, double shortShare = 0.0);
 /// A level set made of constant tiles alone: the nodes of the given edge (8 or 128 voxels) at @a tiles.
 openvdb::FloatGrid::Ptr constantTiles(int edge, const std::vector<openvdb::Coord>& tiles, bool active);
 

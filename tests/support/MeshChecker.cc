@@ -29,6 +29,14 @@ MeshFigures requireValid(const TetMesh& mesh, const AngleBound& bound, std::int6
     return f;
 }
 
+/// The sharpest bound that the counts of a report warrant.
+AngleBound earnedBound(const Report& report) {
+    if (report.tiger == 3 && report.flagged == 0) return report.boundary.filled > 0 ? kNoConflict : kGuarded;
+    if (report.tiger == 2 && report.conflicts == 0) return kNoConflict;
+    if (report.tiger == 2 && report.conflicts == report.lastResortFlips) return kLastResort;
+    return kAlways;
+}
+
 } // namespace
 
 MeshFigures requireClean(const TetMesh& mesh, const AngleBound& bound) {
@@ -37,8 +45,7 @@ MeshFigures requireClean(const TetMesh& mesh, const AngleBound& bound) {
 
 MeshFigures requireClean(const TetMesh& mesh, const Report& report) {
     REQUIRE_FALSE(report.cancelled);
-    const bool earned = report.tiger == 2 && report.conflicts == 0;
-    const AngleBound bound = earned ? kNoConflict : kAlways;
+    const AngleBound bound = earnedBound(report);
     CHECK(report.angleMin >= bound.lo);
     CHECK(report.angleMax <= bound.hi);
     const MeshFigures f =

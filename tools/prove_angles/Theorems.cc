@@ -40,7 +40,7 @@ std::vector<Theorem> makeTheorems() {
          {25.35, 143.93},
          [] { return flippedProblems(true); }},
         {"29", "Algorithm 5's tet, one move at most 0.3", {13.39, 156.68}, shortMoveProblems},
-        {"6.2.2", "last resort, the slice of the mesher", {11.4, 147.5}, lastResortProblems},
+        {"6.2.2", "last resort, the slice of the mesher", {11.46, 147.5}, lastResortProblems},
         {"13", "conflict: sphere through v2 to v4 and v5 or v6", {0.0, 180.0, 1.1}, sphereProblems},
     };
     for (const PlaneBounds& row : kPlaneBounds) {
