@@ -2,8 +2,10 @@
 /// The stages in order (paper, Algorithm 1).
 #include "Pipeline.h"
 
+#include "BeginRun.h"
 #include "Limits.h"
 #include "Stage.h"
+#include "Tell.h"
 #include "cuts/Arrows.h"
 #include "destinations/Destinations.h"
 #include "emit/Emit.h"
@@ -25,66 +27,14 @@ namespace vdbtet {
 
 namespace {
 
-/// The largest distance between neighbouring numbers of @a digits mantissa bits up to @a magnitude, as a
-/// fraction of @a spacing.
-double roundingStep(double magnitude, int digits, double spacing) {
-    return std::ldexp(1.0, std::ilogb(magnitude) + 1 - digits) / spacing;
-}
-
 /// @param places  in units of the lattice
 std::vector<openvdb::Vec3d> inWorld(const Frame& frame, std::vector<openvdb::Vec3d> places) {
     for (openvdb::Vec3d& place : places) place = frame.world(place);
     return places;
 }
 
-MeshTotals totalsOf(const Numbering& numbering, const Frame& frame) {
-    // A dihedral angle turns by at most about 35 times the relative error of its vertices: two faces, each
-    // tilted by the errors of its three vertices over heights that the angle bounds keep above c / 6.
-    constexpr double kRadiansPerError = 35.0;
-    constexpr double kNegligible = 0.01 / 57.29577951308232; // 0.01 degrees
-    MeshTotals totals;
-    totals.points = numbering.points();
-    totals.tets = numbering.tets();
-    totals.triangles = numbering.triangles();
-    totals.bounds = numbering.bounds;
-    double magnitude = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-        magnitude = std::max(
-            {magnitude, std::abs(numbering.bounds.min()[axis]), std::abs(numbering.bounds.max()[axis])});
-    }
-    const auto turn = [&](int digits) {
-        return kRadiansPerError * 0.5 * roundingStep(magnitude, digits, frame.spacing);
-    };
-    constexpr double kMaxFloat = 1e38, kMinFloat = 1e-30;
-    totals.float32Suffices = turn(24) <= kNegligible && magnitude < kMaxFloat && frame.spacing > kMinFloat;
-    if (!(turn(53) <= kNegligible)) {
-        throw TooLarge(
-            "the grid lies so far from the world's origin that double precision cannot resolve its lattice; "
-            "move it nearer, or use a coarser spacing");
-    }
-    return totals;
-}
-
 /// How far points may be off the surface after optimisation, in voxels: half of what is promised.
 constexpr double kOffSurface = 0.5e-3;
-
-/// The level of the coarsest octants, 2^level cells an edge.
-int topLevel(const Options& options, double spacing, const Layout& layout) {
-    if (!options.grade) return 0;
-    const int fitting = coarsestLevel(layout);
-    if (!options.maxSize) return fitting;
-    return std::min(fitting, int(std::floor(std::log2(*options.maxSize / spacing))));
-}
-
-/// @return the sharpest bounds that are proven for all tets of a run (docs/angles.md).
-/// @param passed  whether the guard of version 3 has left no tet beyond its limits
-AngleRange provenAngles(int tiger, const Flips& flips, bool passed, const BoundaryCounts& boundary) {
-    constexpr AngleRange kResolved{11.47, 157.59}; // theorem 2, and what repair lets pass
-    if (tiger == 3 && passed) return boundary.filled > 0 ? kResolved : AngleRange{kGuardMin, kGuardMax};
-    if (tiger == 2 && flips.conflicts == 0) return kResolved;
-    if (tiger == 2 && flips.conflicts == flips.lastResort) return {11.46, kResolved.max}; // theorem 3
-    return {8.54, 164.18};
-}
 
 /// All stages.
 /// @param margin  of Field::surfaceTiles()
@@ -144,14 +94,7 @@ bool mesh(const Field& field, const Frame& frame, const Options& options, int ma
         cuts.reset();
     }
     if (report.cancelled) return true;
-    report.backLabelled = labels.backLabelled;
-    report.tieBroken = labels.tieBroken;
-    report.worklistSeconds = labels.worklistSeconds;
-    report.activeFlips = flips.active;
-    report.qualityFlips = flips.quality;
-    report.extraFlips = flips.extra;
-    report.lastResortFlips = flips.lastResort;
-    report.conflicts = flips.conflicts;
+    tellLabels(labels, flips, report);
     report.places.conflicts = inWorld(frame, flips.conflictPlaces);
     const Repair repair =
         stage("repair", [&] { return repairBoundary(vertices, flips, options.boundary, interrupt); });
@@ -176,41 +119,25 @@ bool mesh(const Field& field, const Frame& frame, const Options& options, int ma
     const auto& moved = options.optimize ? optimized.moves.moved : labels.manifold;
     const auto outer = vertices.changes ? vertices.changes->withExposed(moved) : VertexMasks();
     const VertexMasks& uniform = vertices.changes ? outer : moved;
-    const int top = topLevel(options, frame.spacing, layout);
+    const int top = options.grade ? coarsestLevel(layout, mostCells(options, frame)) : 0;
     const Grading grading =
         stage("grading", [&] { return gradeInterior(layout, signs, uniform, top, interrupt); });
     if (report.cancelled) return true;
     const Numbering numbering =
         stage("numbering", [&] { return numberMesh(vertices, flips, grading, frame, interrupt); });
     if (report.cancelled) return true;
-    report.points = numbering.points();
-    report.tets = numbering.tets();
-    report.boundaryTriangles = numbering.triangles();
-    report.tetsOfLevel = numbering.tetsOfLevel;
-    while (report.tetsOfLevel.size() > 1 && report.tetsOfLevel.back() == 0) report.tetsOfLevel.pop_back();
-    report.ambiguous = numbering.ambiguous;
     report.places.ambiguous = inWorld(frame, numbering.ambiguousPlaces);
-    report.bounds = numbering.bounds;
-    if (report.tets == 0) {
-        throw NoSurface(
-            "the shape is thinner than the lattice can hold, and nothing of it is left; use a finer spacing");
-    }
-    requireFewTets(report.tets, options);
-    const AngleRange proven = provenAngles(options.tiger, flips, passed, repair.counts);
-    report.angleMin = proven.min;
-    report.angleMax = proven.max;
+    tellNumbers(numbering, options, passed, report);
 
     const bool wantsChunks = stage("begin", [&] { return sink.begin(totalsOf(numbering, frame)); });
     if (report.cancelled) return true;
     AngleSum angles = stage(wantsChunks ? "emit" : "measure", [&] {
-        return wantsChunks ? emitMesh(vertices, flips, grading, numbering, frame, sink, interrupt)
-                           : measureMesh(vertices, flips, grading, numbering, frame, interrupt);
+        return wantsChunks
+                   ? emitMesh(vertices, flips, grading, numbering, frame, allOf(numbering), sink, interrupt)
+                   : measureMesh(vertices, flips, grading, numbering, frame, interrupt);
     });
     if (report.cancelled) return true;
-    report.angles = angles.stats();
-    report.percentiles = angles.percentiles();
-    report.angleBins = angles.bins();
-    report.anglesBefore = {report.angles.min, report.angles.max};
+    tellAngles(angles, report);
     if (options.optimize) {
         // What was not measured before are tets of the lattice.
         report.anglesBefore = {std::min(optimized.before.min, 60.0), std::max(optimized.before.max, 90.0)};

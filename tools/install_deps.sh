@@ -9,7 +9,7 @@ packages="g++ cmake ninja-build libopenvdb-dev libtbb-dev libblosc-dev zlib1g-de
     libboost-dev libcgal-dev libcli11-dev libfmt-dev nlohmann-json3-dev libjs-three"
 for option in "$@"; do
     case $option in
-    --tests) packages="$packages catch2 python3" ;;
+    --tests) packages="$packages catch2 python3 libopenmpi-dev openmpi-bin" ;;
     --bench) packages="$packages libbenchmark-dev python3" ;;
     --fuzz) packages="$packages clang libclang-rt-dev" ;;
     --coverage) packages="$packages gcovr" ;;

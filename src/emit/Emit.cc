@@ -24,17 +24,6 @@ namespace {
 /// seldom wait for each other at the file.
 constexpr std::int64_t kTetsPerChunk = std::int64_t(1) << 16;
 
-/// A place in the spans of all tiers, before a tile.
-struct Place {
-    std::int64_t span = 0;
-    std::int64_t offset = 0; ///< of the tile in its span
-};
-
-/// The tiles of a chunk: those from begin up to end.
-struct Unit {
-    Place begin, end;
-};
-
 /// A span where it lies.
 struct Located {
     int tier;
@@ -47,19 +36,25 @@ Located locate(const Numbering& numbering, std::int64_t span) {
     return {tier, span - numbering.firstSpan[tier]};
 }
 
-/// Cuts the spans into units.
+/// Cuts ranges into chunks.
 class Units {
 public:
-    Units(const Grading& grading, const Numbering& numbering) : mGrading(grading), mNumbering(numbering) {}
+    Units(const Grading& grading, const Numbering& numbering, const std::vector<TileRange>& ranges)
+        : mGrading(grading), mNumbering(numbering), mRanges(ranges) {
+        if (!done()) mNext = mRanges[0].begin;
+    }
 
-    bool done() const { return mNext.span == mNumbering.firstSpan.back(); }
+    bool done() const { return mRange == mRanges.size(); }
 
-    Unit next() {
-        Unit unit{mNext, mNext};
-        for (std::int64_t tets = 0; tets < kTetsPerChunk && !done();) {
+    TileRange next() {
+        const Place end = mRanges[mRange].end;
+        const auto atEnd = [&] { return mNext.span == end.span && mNext.offset == end.offset; };
+        TileRange unit{mNext, mNext};
+        for (std::int64_t tets = 0; tets < kTetsPerChunk && !atEnd();) {
             const Located at = locate(mNumbering, mNext.span);
             const Span& span = mGrading.tiers[at.tier].spans[at.span];
-            std::int64_t left = span.count - mNext.offset, taken = left;
+            const std::int64_t last = mNext.span == end.span ? end.offset : span.count;
+            std::int64_t left = last - mNext.offset, taken = left;
             if (span.tile < 0) {
                 const std::int64_t perTile = mNumbering.runTets;
                 taken = std::min(left, (kTetsPerChunk - tets + perTile - 1) / perTile);
@@ -68,15 +63,18 @@ public:
                 tets += mNumbering.firstTet[mNext.span + 1] - mNumbering.firstTet[mNext.span];
             }
             mNext.offset += taken;
-            if (taken == left) mNext = {mNext.span + 1, 0};
+            if (mNext.offset == span.count) mNext = {mNext.span + 1, 0};
         }
         unit.end = mNext;
+        if (atEnd() && ++mRange < mRanges.size()) mNext = mRanges[mRange].begin;
         return unit;
     }
 
 private:
     const Grading& mGrading;
     const Numbering& mNumbering;
+    const std::vector<TileRange>& mRanges;
+    std::size_t mRange = 0;
     Place mNext;
 };
 
@@ -130,10 +128,10 @@ public:
         : mGrading(grading), mNumbering(numbering), mEmitters(emitters), mSink(sink), mInterrupt(interrupt),
           mWants(sink.wants()) {}
 
-    void run() {
-        Units units(mGrading, mNumbering);
+    void run(const std::vector<TileRange>& ranges) {
+        Units units(mGrading, mNumbering, ranges);
         const Visit whole(mVisits);
-        const auto cut = [&](tbb::flow_control& flow) -> Unit {
+        const auto cut = [&](tbb::flow_control& flow) -> TileRange {
             const Visit task(mVisits);
             if (!units.done() && !mInterrupt.stopped()) return units.next();
             flow.stop();
@@ -143,9 +141,9 @@ public:
             mSink.concurrent() ? tbb::filter_mode::parallel : tbb::filter_mode::serial_in_order;
         const size_t tokens = 2 * size_t(tbb::this_task_arena::max_concurrency());
         tbb::parallel_pipeline(
-            tokens, tbb::make_filter<void, Unit>(tbb::filter_mode::serial_in_order, cut) &
-                        tbb::make_filter<Unit, Parcel*>(tbb::filter_mode::parallel,
-                                                        [&](const Unit& unit) { return make(unit); }) &
+            tokens, tbb::make_filter<void, TileRange>(tbb::filter_mode::serial_in_order, cut) &
+                        tbb::make_filter<TileRange, Parcel*>(
+                            tbb::filter_mode::parallel, [&](const TileRange& unit) { return make(unit); }) &
                         tbb::make_filter<Parcel*, void>(order, [&](Parcel* parcel) { pass(*parcel); }));
     }
 
@@ -157,7 +155,7 @@ private:
         return mNumbering.firstTet[at.span] + mNumbering.runTets * at.offset;
     }
 
-    Parcel* make(const Unit& unit) {
+    Parcel* make(const TileRange& unit) {
         const Visit task(mVisits);
         Parcel* parcel = nullptr;
         if (!mSpare.try_pop(parcel)) parcel = mParcels.push_back(std::make_unique<Parcel>(mWants))->get();
@@ -219,21 +217,26 @@ private:
 } // namespace
 
 AngleSum emitMesh(const Vertices& vertices, const Flips& flips, const Grading& grading,
-                  const Numbering& numbering, const Frame& frame, MeshSink& sink, Interrupt& interrupt) {
+                  const Numbering& numbering, const Frame& frame, const std::vector<TileRange>& ranges,
+                  MeshSink& sink, Interrupt& interrupt) {
     Emitters emitters(
         [&] { return std::make_unique<TileEmitter>(vertices, flips, grading, numbering, frame); });
-    Emission(grading, numbering, emitters, sink, interrupt).run();
+    Emission(grading, numbering, emitters, sink, interrupt).run(ranges);
     return sumOf(emitters, numbering);
 }
 
 AngleSum measureMesh(const Vertices& vertices, const Flips& flips, const Grading& grading,
-                     const Numbering& numbering, const Frame& frame, Interrupt& interrupt) {
+                     const Numbering& numbering, const Frame& frame, Interrupt& interrupt,
+                     const OtherParts* others) {
     Emitters emitters(
         [&] { return std::make_unique<TileEmitter>(vertices, flips, grading, numbering, frame); });
     // Surface tiles are in the first tier.
     interrupt.expectLoops(1);
-    parallelRanges(grading.tiers[0].spans.size(), interrupt, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t span = begin; span < end; ++span) emitters.local()->measure(0, span);
+    const Spans& spans = grading.tiers[0].spans;
+    parallelRanges(spans.size(), interrupt, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t span = begin; span < end; ++span) {
+            if (!others || others->isOwn(0, spans[span])) emitters.local()->measure(0, span);
+        }
     });
     return sumOf(emitters, numbering);
 }

@@ -12,9 +12,7 @@ struct Diagonal {
     double b0, b1, b2, b3;
 
     /// @param p  the eight corner values, p[4i+2j+k] at corner (i,j,k); the line starts at p[0]
-    static Diagonal of(const double (&p)[8]) {
-        return {p[0], p[1] + p[2] + p[4], p[3] + p[5] + p[6], p[7]};
-    }
+    static Diagonal of(const double (&p)[8]) { return {p[0], p[1] + p[2] + p[4], p[3] + p[5] + p[6], p[7]}; }
 
     /// @param t  0 at the corner, 1 at the centre
     double operator()(double t) const {

@@ -16,6 +16,23 @@
 
 namespace vdbtet {
 
+/// @return the range of the values of a grid, with its background.
+/// @throw BadValue where one of them is NaN or infinite
+inline ValueRange requireFinite(const ValueScan& scan, double background, const openvdb::GridBase& grid) {
+    const bool badBackground = !std::isfinite(background);
+    if (scan.bad == 0 && !badBackground)
+        return {std::min(scan.min, background), std::max(scan.max, background)};
+    std::ostringstream message;
+    if (scan.bad > 0) {
+        message << scan.bad << " voxels or tiles hold NaN or infinite values, the first at " << scan.firstBad
+                << ", in world space " << grid.indexToWorld(scan.firstBad);
+    }
+    if (badBackground)
+        message << (scan.bad > 0 ? ", and so does the background" : "the background is NaN or infinite");
+    message << "; such values have no sign: mesh them as inside or outside (nan), or replace them";
+    throw BadValue(message.str());
+}
+
 /// @brief Looks at all values; so what reads the grid afterwards need not think of NaN.
 /// @details Values that are replaced are in a copy of the whole tree, so that they are the same for signs,
 /// cut points, gradients and fields, and readers of good grids pay nothing.
@@ -26,17 +43,16 @@ public:
     /// @param interrupt  after a stop this is useless
     /// @throw BadValue where a value is NaN or infinite, and @a nan is Nan::Error
     FiniteGrid(const GridT& grid, const Level& level, Nan nan, Interrupt& interrupt) : mOriginal(grid) {
-        const ValueScan scan = scanValues(grid, interrupt);
+        const ValueScan scan = scanValues(grid, interrupt, [](const auto&) { return true; });
         if (interrupt.stopped()) return;
         const double background = grid.background();
         const bool badBackground = !std::isfinite(background);
-        mValues = {scan.min, scan.max};
         mReplaced = scan.bad + (badBackground ? 1 : 0);
-        if (mReplaced == 0) {
-            widen(background);
+        if (mReplaced == 0 || nan == Nan::Error) {
+            mValues = requireFinite(scan, background, grid);
             return;
         }
-        if (nan == Nan::Error) refuse(scan, badBackground);
+        mValues = {scan.min, scan.max};
         const double depth = badBackground ? depthOf(scan, level) : -level.phi(background);
         const ValueT outside = valueAt(level, -depth), inside = valueAt(level, depth);
         mCopy = grid.deepCopy();
@@ -71,18 +87,6 @@ private:
     };
 
     void widen(double value) { mValues = {std::min(mValues.min, value), std::max(mValues.max, value)}; }
-
-    [[noreturn]] void refuse(const ValueScan& scan, bool badBackground) const {
-        std::ostringstream message;
-        if (scan.bad > 0) {
-            message << scan.bad << " voxels or tiles hold NaN or infinite values, the first at "
-                    << scan.firstBad << ", in world space " << mOriginal.indexToWorld(scan.firstBad);
-        }
-        if (badBackground)
-            message << (scan.bad > 0 ? ", and so does the background" : "the background is NaN or infinite");
-        message << "; such values have no sign: mesh them as inside or outside (nan), or replace them";
-        throw BadValue(message.str());
-    }
 
     /// How far the good values go on either side of the isovalue.
     static double depthOf(const ValueScan& scan, const Level& level) {

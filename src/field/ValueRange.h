@@ -85,16 +85,19 @@ struct ValueScan {
     }
 };
 
-/// @return what the leaves and tiles have, active or not; the background is not among it.
-template <typename GridT>
-ValueScan scanValues(const GridT& grid, Interrupt& interrupt) {
+/// @return what the tiles have, and the leaves that @a takes(leaf), active or not; the background is not
+/// among it.
+template <typename GridT, typename Takes>
+ValueScan scanValues(const GridT& grid, Interrupt& interrupt, const Takes& takes) {
     using TreeT = typename GridT::TreeType;
     tbb::enumerable_thread_specific<ValueScan> scans;
     const openvdb::tree::LeafManager<const TreeT> leaves(grid.tree());
     interrupt.expectLoops(1);
     parallelRanges(std::int64_t(leaves.leafCount()), interrupt, [&](std::int64_t begin, std::int64_t end) {
         ValueScan& scan = scans.local();
-        for (std::int64_t l = begin; l < end; ++l) scan.addLeaf(leaves.leaf(std::size_t(l)));
+        for (std::int64_t l = begin; l < end; ++l) {
+            if (takes(leaves.leaf(std::size_t(l)))) scan.addLeaf(leaves.leaf(std::size_t(l)));
+        }
     });
     const TreeNodes<TreeT> nodes(grid.tree());
     parallelEach(std::int64_t(nodes.lower.size()), interrupt,

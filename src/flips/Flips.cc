@@ -218,7 +218,7 @@ std::vector<std::array<TileMask, 2>> findFarMoves(const Vertices& vertices, Inte
 } // namespace
 
 Flips chooseFlips(const Vertices& vertices, int version, Interrupt& interrupt) {
-    const std::int64_t tiles = vertices.layout.surfaceCount();
+    const std::int64_t tiles = vertices.layout.ownCount();
     std::vector<TileFlipper::Result> parts(tiles);
     const auto farMoves = findFarMoves(vertices, interrupt);
     interrupt.expectLoops(1); // the other one takes no time

@@ -5,6 +5,7 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -49,18 +50,6 @@ struct Units {
     }
 };
 
-Units finestUnits(const Layout& layout, const VertexMasks& moved, Interrupt& interrupt) {
-    std::vector<TileMask> cells(layout.surfaceTiles.size());
-    parallelRanges(layout.surfaceCount(), interrupt, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t t = begin; t < end; ++t) cells[t] = finestCells(layout, moved, TileRef(t));
-    });
-    Units units;
-    for (std::size_t t = 0; t < cells.size(); ++t) {
-        if (cells[t].any()) units.append(layout.surfaceTiles[t], cells[t]);
-    }
-    return units;
-}
-
 /// The tiles of @a tiles and their neighbours, in order.
 std::vector<Coord> dilated(const Spans& tiles) {
     std::vector<Coord> along;
@@ -84,18 +73,16 @@ std::vector<Coord> dilated(const Spans& tiles) {
 }
 
 /// Whether a vertex at the lower corner of a tile of the layout is inside.
-bool insideAt(const Layout& layout, const std::vector<TileSigns>& signs, const Coord& tile) {
+bool insideAt(const Layout& layout, const std::vector<bool>& lowest, const Coord& tile) {
     const std::int64_t span = layout.spans.find(tile);
-    if (span < 0) return false;
-    const TileRef surface = layout.spans[span].tile;
-    return surface == kInside || signs[surface][bcc::A].test(TileMask::bit(0, 0, 0));
+    return span >= 0 && lowest[std::size_t(span)];
 }
 
 /// Makes one tier after the other, each from the records of the one before.
 class TierMaker {
 public:
-    TierMaker(const Layout& layout, const std::vector<TileSigns>& signs, Units units, Interrupt& interrupt)
-        : mLayout(layout), mSigns(signs), mUnits(std::move(units)), mInterrupt(interrupt) {}
+    TierMaker(const Layout& layout, const std::vector<bool>& lowest, Units units, Interrupt& interrupt)
+        : mLayout(layout), mLowest(lowest), mUnits(std::move(units)), mInterrupt(interrupt) {}
 
     /// @param coarsest  the level of the coarsest octants in the tier's tiles
     Tier next(int coarsest, bool last) {
@@ -160,7 +147,7 @@ private:
     /// @return whether the vertex (x,y,z) of a tile of this tier is inside.
     bool isInside(const Coord& tile, int x, int y, int z) const {
         const std::int64_t step = mUnit / TileMask::kDim; // in tiles of the layout
-        if (step == 0) return insideAt(mLayout, mSigns, tile);
+        if (step == 0) return insideAt(mLayout, mLowest, tile);
         constexpr std::int64_t kFar = std::int64_t(1) << 30; // beyond all tiles of the layout
         const int vertex[3] = {x, y, z};
         Coord at;
@@ -169,7 +156,7 @@ private:
             if (std::abs(place) > kFar) return false;
             at[i] = int(place);
         }
-        return insideAt(mLayout, mSigns, at);
+        return insideAt(mLayout, mLowest, at);
     }
 
     void findInside(Tier& tier) const {
@@ -204,7 +191,7 @@ private:
     }
 
     const Layout& mLayout;
-    const std::vector<TileSigns>& mSigns;
+    const std::vector<bool>& mLowest;
     Units mUnits;
     Interrupt& mInterrupt;
     std::int64_t mUnit = 1; ///< of the tier, in cells
@@ -215,32 +202,57 @@ private:
 
 } // namespace
 
-int coarsestLevel(const Layout& layout) {
+int coarsestLevel(const Layout& layout, std::optional<double> mostCells) {
     openvdb::CoordBBox box;
-    for (const Coord& tile : layout.surfaceTiles) box.expand(tile);
+    for (const Span& span : layout.spans) {
+        if (span.tile != kInside) box.expand(span.first);
+    }
     const Coord low = box.min(), high = box.max();
     std::int64_t tiles = 1;
     for (int axis = 0; axis < 3; ++axis)
         tiles = std::max(tiles, std::int64_t(high[axis]) - std::int64_t(low[axis]) + 1);
     int level = 3;
     while (std::int64_t(1) << (level - 3) < tiles) ++level;
-    return level;
+    return mostCells ? std::min(level, int(std::floor(std::log2(*mostCells)))) : level;
 }
 
-Grading gradeInterior(const Layout& layout, const std::vector<TileSigns>& signs, const VertexMasks& moved,
-                      int top, Interrupt& interrupt) {
+std::vector<FinestOctants> findFinest(const Layout& layout, const VertexMasks& moved, Interrupt& interrupt) {
+    std::vector<TileMask> cells(std::size_t(layout.ownCount()));
+    parallelRanges(layout.ownCount(), interrupt, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t t = begin; t < end; ++t) cells[t] = finestCells(layout, moved, TileRef(t));
+    });
+    std::vector<FinestOctants> finest;
+    for (std::size_t t = 0; t < cells.size(); ++t) {
+        if (cells[t].any()) finest.push_back({layout.surfaceTiles[t], cells[t]});
+    }
+    return finest;
+}
+
+Grading gradeTiles(const Layout& layout, const std::vector<bool>& lowest,
+                   const std::vector<FinestOctants>& finest, int top, Interrupt& interrupt) {
     Grading grading;
     grading.top = top;
-    if (top == 0) {
-        grading.tiers.resize(1);
-        grading.tiers[0].spans = layout.spans;
-        return grading;
-    }
-    TierMaker maker(layout, signs, finestUnits(layout, moved, interrupt), interrupt);
+    Units units;
+    for (const FinestOctants& octants : finest) units.append(octants.tile, octants.cells);
+    TierMaker maker(layout, lowest, std::move(units), interrupt);
     const int last = (top - 1) / 3;
     for (int tier = 0; tier <= last && !interrupt.stopped(); ++tier)
         grading.tiers.push_back(maker.next(tier < last ? 3 : top - 3 * last, tier == last));
     return grading;
+}
+
+Grading gradeInterior(const Layout& layout, const std::vector<TileSigns>& signs, const VertexMasks& moved,
+                      int top, Interrupt& interrupt) {
+    if (top == 0) {
+        Grading grading;
+        grading.tiers.resize(1);
+        grading.tiers[0].spans = layout.spans;
+        return grading;
+    }
+    std::vector<bool> lowest;
+    for (const Span& span : layout.spans)
+        lowest.push_back(span.tile == kInside || TileEnds::of(signs[span.tile]).lowest);
+    return gradeTiles(layout, lowest, findFinest(layout, moved, interrupt), top, interrupt);
 }
 
 TileMask Grading::verticesInRun() const {

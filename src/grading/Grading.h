@@ -15,6 +15,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace vdbtet {
@@ -80,7 +81,24 @@ struct Grading {
 Grading gradeInterior(const Layout& layout, const std::vector<TileSigns>& signs, const VertexMasks& moved,
                       int top, Interrupt& interrupt);
 
-/// The level from which on no coarser octant fits into the inside.
-int coarsestLevel(const Layout& layout);
+/// The octants of level 0 of a surface tile that are chosen for its vertices.
+struct FinestOctants {
+    openvdb::Coord tile;
+    TileMask cells;
+};
+
+/// The first step of gradeInterior(), for the own tiles: those that have any, ascending.
+std::vector<FinestOctants> findFinest(const Layout& layout, const VertexMasks& moved, Interrupt& interrupt);
+
+/// @brief The other steps, for the whole mesh.
+/// @param lowest  of each of the layout's spans, whether its lowest vertex is inside
+/// @param finest  of all tiles, ascending
+/// @param top     not 0
+Grading gradeTiles(const Layout& layout, const std::vector<bool>& lowest,
+                   const std::vector<FinestOctants>& finest, int top, Interrupt& interrupt);
+
+/// The level from which on no coarser octant fits into the inside, or into the limit of edges.
+/// @param mostCells  the limit, as a number of cells; default: none
+int coarsestLevel(const Layout& layout, std::optional<double> mostCells);
 
 } // namespace vdbtet

@@ -7,6 +7,7 @@
 #include <openvdb/Exceptions.h>
 #include <openvdb/io/Compression.h>
 #include <openvdb/io/File.h>
+#include <openvdb/openvdb.h>
 #include <openvdb/version.h>
 
 #include <algorithm>
@@ -74,11 +75,7 @@ openvdb::GridBase::Ptr GridArchive::read(const Entry& entry, bool delayLoad) {
     entry.descriptor.seekToGrid(mStream);
     requireCompression();
 
-    // Buffers left on disk would be missed only when the mesher touches them.
-    mStream.seekg(0, std::ios_base::end);
-    if (entry.descriptor.getEndPos() > mStream.tellg()) {
-        throw FileError(mPath + " ends before its grid does: it is truncated or damaged");
-    }
+    requireWhole(entry);
 
     const bool allKnown =
         std::all_of(mEntries.begin(), mEntries.end(), [](const Entry& e) { return e.grid; });
@@ -98,6 +95,70 @@ openvdb::GridBase::Ptr GridArchive::read(const Entry& entry, bool delayLoad) {
             throw FileError(mPath + " is damaged: the grid shares its tree with one that is not there");
         }
         grid->setTree(readHere(*parent)->baseTreePtr());
+    }
+    return grid;
+}
+
+/// Buffers left on disk would be missed only when the mesher touches them, or never.
+void GridArchive::requireWhole(const Entry& entry) {
+    mStream.seekg(0, std::ios_base::end);
+    if (entry.descriptor.getEndPos() > mStream.tellg()) {
+        throw FileError(mPath + " ends before its grid does: it is truncated or damaged");
+    }
+}
+
+openvdb::GridBase::Ptr GridArchive::readPart(const Entry& entry, const ChooseLeaves& choose) {
+    if (entry.grid->isType<openvdb::FloatGrid>()) return readPartOf<openvdb::FloatGrid>(entry, choose);
+    if (entry.grid->isType<openvdb::DoubleGrid>()) return readPartOf<openvdb::DoubleGrid>(entry, choose);
+    return nullptr;
+}
+
+template <typename GridT>
+openvdb::GridBase::Ptr GridArchive::readPartOf(const Entry& entry, const ChooseLeaves& choose) {
+    // Older files, and grids that share the tree of another one, are read as a whole.
+    const bool inParts =
+        inputHasGridOffsets() && !entry.descriptor.isInstance() &&
+        openvdb::io::getFormatVersion(mStream) >= openvdb::OPENVDB_FILE_VERSION_GRID_INSTANCING;
+    typename GridT::Ptr grid;
+    if (inParts) {
+        entry.descriptor.seekToGrid(mStream);
+        requireCompression();
+        requireWhole(entry);
+        // As openvdb::io::Archive::readGrid() does, up to the leaves.
+        grid = openvdb::gridPtrCast<GridT>(create(entry));
+        entry.descriptor.seekToGrid(mStream);
+        readGridCompression(mStream);
+        mStreamMetadata->setHalfFloat(grid->saveFloatAsHalf());
+        openvdb::io::setGridClass(mStream, openvdb::GRID_UNKNOWN);
+        openvdb::io::setGridBackgroundValuePtr(mStream, nullptr);
+        grid->readMeta(mStream);
+        openvdb::io::setGridClass(mStream, grid->getGridClass());
+        grid->removeMeta(openvdb::GridBase::META_FILE_DELAYED_LOAD);
+        grid->readTransform(mStream);
+        grid->readTopology(mStream);
+    } else {
+        grid = openvdb::gridPtrCast<GridT>(read(entry, false));
+    }
+
+    auto& tree = grid->tree();
+    std::vector<openvdb::Coord> blocks;
+    for (auto leaf = tree.cbeginLeaf(); leaf; ++leaf) blocks.push_back(leaf->origin() >> 3);
+    const std::vector<bool> wanted = choose(blocks);
+    if (inParts) {
+        // Leaves are stored in the order of the tree. One that is outside of the box is passed over.
+        const openvdb::CoordBBox nowhere(openvdb::Coord::min(), openvdb::Coord::min());
+        std::size_t number = 0;
+        for (auto leaf = tree.beginLeaf(); leaf; ++leaf, ++number) {
+            leaf->readBuffers(mStream, wanted[number] ? leaf->getNodeBoundingBox() : nowhere,
+                              grid->saveFloatAsHalf());
+        }
+        openvdb::io::setGridBackgroundValuePtr(mStream, nullptr);
+    }
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        if (wanted[i]) continue;
+        const openvdb::Coord& block = blocks[i];
+        tree.addTile(1, openvdb::Coord(8 * block.x(), 8 * block.y(), 8 * block.z()), grid->background(),
+                     false);
     }
     return grid;
 }

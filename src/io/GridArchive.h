@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <fstream>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -38,7 +39,20 @@ public:
     /// @throw FileError when this OpenVDB lacks the compression the grid is stored with
     openvdb::GridBase::Ptr read(const Entry& entry, bool delayLoad);
 
+    /// Is given the blocks of 8^3 voxels that have leaves, and returns for each whether it is wanted.
+    using ChooseLeaves = std::function<std::vector<bool>(const std::vector<openvdb::Coord>& blocks)>;
+
+    /// @brief Read a float or double grid, but of its leaves only those that @a choose wants; where the
+    /// others are the grid has its background.
+    /// @details All nodes are read, but no values of the leaves that are not wanted.
+    /// @return null for a grid of another type
+    /// @throw FileError as above
+    openvdb::GridBase::Ptr readPart(const Entry& entry, const ChooseLeaves& choose);
+
 private:
+    void requireWhole(const Entry& entry);
+    template <typename GridT>
+    openvdb::GridBase::Ptr readPartOf(const Entry& entry, const ChooseLeaves& choose);
     openvdb::GridBase::Ptr readHere(const Entry& entry);
     openvdb::GridBase::Ptr create(const Entry& entry) const;
     void requireCompression();

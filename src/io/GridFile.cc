@@ -6,6 +6,7 @@
 #include <vdbtet/FieldSampler.h>
 
 #include "io/GridArchive.h"
+#include "io/GridPart.h"
 
 #include <openvdb/openvdb.h>
 
@@ -159,22 +160,40 @@ auto withArchive(const std::string& path, const Work& work) {
     }
 }
 
-openvdb::GridBase::Ptr readEntry(GridArchive& archive, const std::string& path, std::size_t index,
-                                 bool delayLoad) {
+const Entry& knownEntry(GridArchive& archive, const std::string& path, std::size_t index) {
     const Entry& entry = archive.entries()[index];
     if (!entry.grid) {
         throw UnsupportedGrid(path + ": the grid is a " + entry.descriptor.gridType() +
                               ", a type that OpenVDB does not know");
     }
-    return archive.read(entry, delayLoad);
+    return entry;
+}
+
+openvdb::GridBase::Ptr readEntry(GridArchive& archive, const std::string& path, std::size_t index,
+                                 bool delayLoad) {
+    return archive.read(knownEntry(archive, path, index), delayLoad);
+}
+
+/// The index of the grid that is meant.
+std::size_t findGrid(GridArchive& archive, const std::string& path, const std::string& name) {
+    return name.empty() ? findTheOne(archive, path) : findByName(archive, path, name);
 }
 
 } // namespace
 
 openvdb::GridBase::Ptr readGrid(const std::string& path, const std::string& name, bool delayLoad) {
     return withArchive(path, [&](GridArchive& archive) {
-        const std::size_t index = name.empty() ? findTheOne(archive, path) : findByName(archive, path, name);
-        return readEntry(archive, path, index, delayLoad);
+        return readEntry(archive, path, findGrid(archive, path, name), delayLoad);
+    });
+}
+
+openvdb::GridBase::Ptr readGridPart(const std::string& path, const std::string& name,
+                                    const GridArchive::ChooseLeaves& choose) {
+    return withArchive(path, [&](GridArchive& archive) {
+        const Entry& entry = knownEntry(archive, path, findGrid(archive, path, name));
+        if (const auto grid = archive.readPart(entry, choose)) return grid;
+        throw UnsupportedGrid(path + ": a grid of type " + entry.descriptor.gridType() +
+                              " cannot be meshed; only float and double grids can");
     });
 }
 

@@ -130,6 +130,13 @@ const std::vector<MeshFormat>& meshFormats() {
     return kFormats;
 }
 
+std::unique_ptr<const Format> makeFormat(const std::string& path, const std::string& name,
+                                         const MeshTotals& totals, const FormatOptions& options) {
+    const Known& one = find(path, name, options);
+    checkFields(one, totals);
+    return makeFormat(path, one, totals, options);
+}
+
 struct MeshFile::Impl {
     Impl(const std::string& target, const Known& one, const FormatOptions& with)
         : path(target), known(one), options(with) {

@@ -99,7 +99,18 @@ int readAll(int fd, std::uint64_t offset, void* data, std::size_t size) {
 
 } // namespace
 
-OutputFile::OutputFile(const std::string& path) : mPath(path), mTarget(followLinks(path)) {
+OutputFile::OutputFile(const std::string& path) : mPath(path), mTarget(followLinks(path)) { open(false); }
+
+OutputFile::OutputFile(const std::string& path, Shared) : mPath(path), mTarget(followLinks(path)) {
+    open(true);
+}
+
+OutputFile::OutputFile(const std::string& path, const std::string& temporary) : mPath(path) {
+    mFd = ::open(temporary.c_str(), O_RDWR | O_CLOEXEC);
+    if (mFd < 0) fail(errno);
+}
+
+void OutputFile::open(bool named) {
     struct stat old = {};
     const bool replaces = ::stat(mTarget.c_str(), &old) == 0;
     if (!replaces && errno != ENOENT) fail(errno);
@@ -110,7 +121,7 @@ OutputFile::OutputFile(const std::string& path) : mPath(path), mTarget(followLin
     // A rename would replace a write-protected file without asking.
     if (replaces && ::access(mTarget.c_str(), W_OK) != 0) fail(errno);
 
-    mFd = makeNameless(mTarget);
+    if (!named) mFd = makeNameless(mTarget);
     if (mFd < 0) mFd = makeTemporary(mTarget, mTemporary);
     if (mFd < 0) {
         const int error = errno;
@@ -156,6 +167,10 @@ void OutputFile::prepare() {
         }
     }
     // Network file systems report a full disk no earlier than here. The descriptor is gone either way.
+    leave();
+}
+
+void OutputFile::leave() {
     const int fd = mFd;
     mFd = -1;
     if (::close(fd) != 0 && errno != EINTR) fail(errno);
@@ -197,6 +212,10 @@ SpoolFile::~SpoolFile() { ::close(mFd); }
 void SpoolFile::append(const void* data, std::size_t size) {
     if (const int error = writeAll(mFd, mSize, data, size)) mTarget.fail(error);
     mSize += size;
+}
+
+void SpoolFile::readAt(std::uint64_t offset, void* data, std::size_t size) const {
+    if (const int error = readAll(mFd, offset, data, size)) mTarget.fail(error);
 }
 
 void SpoolFile::copyTo(std::uint64_t offset) const {

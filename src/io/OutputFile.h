@@ -20,6 +20,17 @@ public:
     /// @throw FileError also when the target exists and is not a regular file, or may not be written
     explicit OutputFile(const std::string& path);
     ~OutputFile();
+
+    /// For a file that several processes write: one of them makes and commits it, and the others join it by
+    /// the name it has meanwhile. Nothing is left of it unless all of them are killed.
+    struct Shared {};
+    OutputFile(const std::string& path, Shared);
+    OutputFile(const std::string& path, const std::string& temporary);
+    /// The name it has meanwhile, where it has one.
+    const std::string& temporary() const { return mTemporary; }
+    /// Instead of commit(), for one that has joined: all that it wrote has been taken.
+    void leave();
+
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
 
@@ -41,6 +52,7 @@ private:
     friend class SpoolFile;
 
     [[noreturn]] void fail(int error) const;
+    void open(bool named);
 
     std::string mPath;
     std::string mTarget;    // mPath with the links followed
@@ -60,6 +72,7 @@ public:
 
     void append(const void* data, std::size_t size);
     std::uint64_t size() const { return mSize; }
+    void readAt(std::uint64_t offset, void* data, std::size_t size) const;
     /// Copy all of it to the target.
     void copyTo(std::uint64_t offset) const;
 

@@ -52,7 +52,9 @@ private:
 
 class RecordFile {
 public:
-    explicit RecordFile(const std::string& path) : mFile(path) {}
+    /// As OutputFile's.
+    template <typename... How>
+    explicit RecordFile(const std::string& path, const How&... how) : mFile(path, how...) {}
 
     /// Take the disk space, and write the texts.
     void start(const RecordLayout& layout);

@@ -26,19 +26,15 @@ public:
         : tetsOfLevel(std::size_t(grading.top + 1)), mVertices(vertices), mGrading(grading), mFrame(frame),
           mTets(vertices, flips) {}
 
-    struct Counts {
-        std::int64_t tets = 0, triangles = 0, ambiguous = 0;
-    };
-
     /// @param used  receives the used vertices; nothing in L_B but of a surface tile
-    Counts number(int tier, const openvdb::Coord& tile, TileRef record, std::array<TileMask, 2>& used) {
+    SpanCounts number(int tier, const openvdb::Coord& tile, TileRef record, std::array<TileMask, 2>& used) {
         const bool graded = mGrading.top > 0;
         const TileRef surface = mGrading.surfaceOf(tier, record);
         if (graded) {
             const SpansAround around = mGrading.tiers[tier].spans.around(tile);
             mGrading.load(mVertices.layout, mVertices.signs, tier, tile, around, mOctants);
         }
-        Counts counts;
+        SpanCounts counts;
         if (surface >= 0) {
             counts = numberSurface(surface, used);
         } else {
@@ -61,6 +57,9 @@ public:
             tetsOfLevel[std::size_t(3 * tier + level)] += ofLevel;
             counts.tets += ofLevel;
         }
+        counts.points = used[bcc::A].count() + used[bcc::B].count();
+        if (const TileChanges* changes = mVertices.changesOf(surface))
+            counts.points += std::int64_t(changes->copies.size());
         return counts;
     }
 
@@ -79,19 +78,19 @@ public:
     openvdb::BBoxd bounds;
 
 private:
-    Counts numberSurface(TileRef tile, std::array<TileMask, 2>& used) {
+    SpanCounts numberSurface(TileRef tile, std::array<TileMask, 2>& used) {
         const bool graded = mGrading.top > 0;
         mStates.load(mVertices, tile);
         if (graded) mStates.keepCells(mOctants.exists(0));
         mTets.load(tile, mStates);
-        Counts counts;
+        SpanCounts counts;
         const TileChanges* changes = mVertices.changesOf(tile);
         if (changes || mStates.manifoldMask(bcc::A).any() || mStates.manifoldMask(bcc::B).any()) {
             findChangedFaces(mVertices, tile, mTets, mStates, mFaces);
-            counts.triangles = std::int64_t(mFaces.size());
+            counts.triangles = std::int32_t(mFaces.size());
         }
         counts.tets = mTets.tets();
-        counts.ambiguous = mTets.ambiguous();
+        counts.ambiguous = std::int32_t(mTets.ambiguous());
         for (bcc::Lattice lattice : {bcc::A, bcc::B}) {
             used[lattice] = mStates.interiorMask(lattice).core();
             if (graded && lattice == bcc::A) used[lattice] &= mOctants.vertices();
@@ -152,7 +151,7 @@ private:
 } // namespace
 
 Numbering numberMesh(const Vertices& vertices, const Flips& flips, const Grading& grading, const Frame& frame,
-                     Interrupt& interrupt) {
+                     Interrupt& interrupt, OtherParts* others) {
     Numbering numbering;
     const int levelInRun = grading.coarsest(grading.last());
     numbering.usedInRun = {grading.verticesInRun(), TileMask::filled(grading.top == 0)};
@@ -167,17 +166,22 @@ Numbering numberMesh(const Vertices& vertices, const Flips& flips, const Grading
     numbering.firstSpan.push_back(0);
     for (auto* first : {&numbering.firstPoint, &numbering.firstTet, &numbering.firstTriangle})
         first->push_back(0);
+    std::int64_t inRuns = 0;
     interrupt.expectLoops(1); // the higher tiers have few tiles
     for (int tier = 0; tier <= grading.last(); ++tier) {
         const Spans& spans = grading.tiers[tier].spans;
         std::vector<TileMask>& usedA = numbering.usedA[tier];
-        usedA.resize(std::size_t(spans.size())); // a few more than records: runs have none
-        std::vector<TileNumberer::Counts> counts(std::size_t(spans.size()));
+        usedA.resize(grading.top == 0 ? vertices.layout.surfaceTiles.size()
+                                      : grading.tiers[tier].octants.size());
+        std::vector<SpanCounts> counts(std::size_t(spans.size()));
+        const auto isOwn = [&](const Span& span) {
+            return span.tile >= 0 && (!others || others->isOwn(tier, span));
+        };
         parallelRanges(spans.size(), interrupt, [&](std::int64_t begin, std::int64_t end) {
             TileNumberer& numberer = *numberers.local();
             for (std::int64_t s = begin; s < end; ++s) {
                 const TileRef record = spans[s].tile;
-                if (record < 0) continue;
+                if (!isOwn(spans[s])) continue;
                 std::array<TileMask, 2> used;
                 counts[s] = numberer.number(tier, spans[s].first, record, used);
                 usedA[record] = used[bcc::A];
@@ -186,22 +190,17 @@ Numbering numberMesh(const Vertices& vertices, const Flips& flips, const Grading
             }
         });
 
+        if (others) others->addCounts(tier, spans, counts);
         for (auto* first : {&numbering.firstPoint, &numbering.firstTet, &numbering.firstTriangle})
             first->reserve(first->size() + std::size_t(spans.size()));
         for (std::int64_t s = 0; s < spans.size(); ++s) {
             const Span& span = spans[s];
-            std::int64_t points = numbering.runPoints * span.count;
-            if (span.tile < 0) {
+            if (span.tile == kInside) {
+                counts[s].points = numbering.runPoints * span.count;
                 counts[s].tets = numbering.runTets * span.count;
-                numbering.kinds[std::size_t(TetKind::Lattice)] += counts[s].tets;
-                numbering.tetsOfLevel.back() += counts[s].tets;
-            } else {
-                const TileRef surface = grading.surfaceOf(tier, span.tile);
-                points = usedA[span.tile].count() + (surface >= 0 ? numbering.usedB[surface].count() : 0);
-                if (const TileChanges* changes = vertices.changesOf(surface))
-                    points += std::int64_t(changes->copies.size());
+                inRuns += counts[s].tets;
             }
-            numbering.firstPoint.push_back(numbering.points() + points);
+            numbering.firstPoint.push_back(numbering.points() + counts[s].points);
             numbering.firstTet.push_back(numbering.tets() + counts[s].tets);
             numbering.firstTriangle.push_back(numbering.triangles() + counts[s].triangles);
             numbering.ambiguous += counts[s].ambiguous;
@@ -210,7 +209,7 @@ Numbering numberMesh(const Vertices& vertices, const Flips& flips, const Grading
         std::vector<openvdb::Vec3d>& places = numbering.ambiguousPlaces;
         const auto again = std::make_unique<TileNumberer>(vertices, flips, grading, frame);
         for (std::int64_t s = 0; s < spans.size() && places.size() < Places::kMost; ++s) {
-            if (counts[s].ambiguous == 0) continue;
+            if (counts[s].ambiguous == 0 || !isOwn(spans[s])) continue;
             std::array<TileMask, 2> used;
             again->number(tier, spans[s].first, spans[s].tile, used);
             again->addAmbiguous(grading.surfaceOf(tier, spans[s].tile), places);
@@ -224,6 +223,9 @@ Numbering numberMesh(const Vertices& vertices, const Flips& flips, const Grading
         for (std::size_t level = 0; level < part->tetsOfLevel.size(); ++level)
             numbering.tetsOfLevel[level] += part->tetsOfLevel[level];
     }
+    if (others) others->addSums(numbering);
+    numbering.kinds[std::size_t(TetKind::Lattice)] += inRuns;
+    numbering.tetsOfLevel.back() += inRuns;
     return numbering;
 }
 

@@ -50,10 +50,30 @@ struct Numbering {
     openvdb::BBoxd bounds; ///< of the used points, world space
 };
 
+/// What a span has.
+struct SpanCounts {
+    std::int64_t points = 0, tets = 0;
+    std::int32_t triangles = 0, ambiguous = 0;
+};
+
+/// The parts of a mesh that is numbered in several: each part looks at its own tiles, and numbers all spans.
+class OtherParts {
+public:
+    virtual ~OtherParts() = default;
+
+    /// @return whether a span with a record is this part's.
+    virtual bool isOwn(int tier, const Span& span) const = 0;
+    /// Fill in what the other parts have counted in a tier's spans with records.
+    virtual void addCounts(int tier, const Spans& spans, std::vector<SpanCounts>& counts) = 0;
+    /// Add up what is summed over the tiles with records: Numbering::kinds, tetsOfLevel and bounds.
+    virtual void addSums(Numbering& numbering) = 0;
+};
+
+/// @param others  null where the mesh is numbered in one piece; else ambiguousPlaces are the part's own
 /// @details Every vertex inside is used that exists. A manifold vertex is used iff one of its 14 lattice
 /// neighbours is inside and not manifold: the edge to that neighbour is in the mesh, or, flipped, another
 /// such edge of the same octahedron.
 Numbering numberMesh(const Vertices& vertices, const Flips& flips, const Grading& grading, const Frame& frame,
-                     Interrupt& interrupt);
+                     Interrupt& interrupt, OtherParts* others = nullptr);
 
 } // namespace vdbtet

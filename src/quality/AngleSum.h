@@ -37,6 +37,17 @@ public:
     /// Take in all that @a other has seen.
     void add(AngleSum& other);
 
+    /// Make this the sum of several, by a @a reduction that has least(double&), most(double&) and
+    /// sum(std::int64_t*, std::size_t count): each makes a number that of all of them.
+    template <typename Reduction>
+    void reduce(Reduction& reduction) {
+        flush();
+        reduction.least(mMin);
+        reduction.most(mMax);
+        reduction.sum(mFine.data(), mFine.size());
+        reduction.sum(mKnown.data(), mKnown.size());
+    }
+
     AngleStats stats();
     AnglePercentiles percentiles();
     /// All angles, ascending; bins are as fine as AnglePercentiles are good.

@@ -177,7 +177,7 @@ private:
 } // namespace
 
 std::vector<std::int64_t> findPinched(const Vertices& vertices, const Flips& flips, Interrupt& interrupt) {
-    const std::int64_t tiles = vertices.layout.surfaceCount();
+    const std::int64_t tiles = vertices.layout.ownCount();
     std::vector<std::vector<std::int64_t>> found(tiles);
     tbb::enumerable_thread_specific<std::unique_ptr<PinchFinder>> finders(
         [&] { return std::make_unique<PinchFinder>(vertices, flips); });

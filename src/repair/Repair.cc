@@ -25,8 +25,12 @@ openvdb::Vec3d positionOf(const Vertices& vertices, std::int64_t id) {
 } // namespace
 
 Repair repairBoundary(const Vertices& vertices, const Flips& flips, Boundary mode, Interrupt& interrupt) {
+    return mendBoundary(vertices, flips, findPinched(vertices, flips, interrupt), mode, interrupt);
+}
+
+Repair mendBoundary(const Vertices& vertices, const Flips& flips, std::vector<std::int64_t> bad,
+                    Boundary mode, Interrupt& interrupt) {
     Repair repair;
-    std::vector<std::int64_t> bad = findPinched(vertices, flips, interrupt);
     repair.counts.found = repair.counts.left = std::int64_t(bad.size());
     for (std::size_t i = 0; i < std::min(bad.size(), Places::kMost); ++i)
         repair.pinched.push_back(positionOf(vertices, bad[i]));
@@ -43,6 +47,7 @@ Repair repairBoundary(const Vertices& vertices, const Flips& flips, Boundary mod
     repair.counts.left = mode == Boundary::Manifold ? 0 : std::int64_t(rounds.bad().size());
     repair.leavesSurface = rounds.leavesSurface() || maker.leavesSurface();
     repair.changes = maker.take();
+    repair.changed = rounds.changed();
     return repair;
 }
 

@@ -24,6 +24,8 @@ struct Repair {
     /// Whether tets are concerned that no surface tile owns: then all is to be done again with a margin of
     /// one more cell, where that cannot be.
     bool leavesSurface = false;
+    /// The vertices of all tets that were put in or taken out, as VertexId.
+    std::vector<std::int64_t> changed;
 };
 
 /// @brief Find the vertices where the boundary is not a surface, and mend it as far as @a mode says.
@@ -33,5 +35,10 @@ struct Repair {
 /// over a frozen state: each bad vertex has one candidate, which wins if no other one of a lower vertex
 /// shares a vertex with it. So neither order nor threads matter, and nothing far from a bad vertex changes.
 Repair repairBoundary(const Vertices& vertices, const Flips& flips, Boundary mode, Interrupt& interrupt);
+
+/// @brief The same from the vertices on that findPinched() has found.
+/// @details Reads no more than the tiles within two of a bad or changed vertex's.
+Repair mendBoundary(const Vertices& vertices, const Flips& flips, std::vector<std::int64_t> bad,
+                    Boundary mode, Interrupt& interrupt);
 
 } // namespace vdbtet

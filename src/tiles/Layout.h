@@ -29,12 +29,32 @@ using VertexMasks = std::vector<std::array<TileMask, 2>>;
 struct Layout {
     Spans spans;                              ///< of surface tiles, by index, and of interior tiles
     std::vector<openvdb::Coord> surfaceTiles; ///< ascending
-    std::vector<Neighbours> neighbours;       ///< of each surface tile
+    std::vector<Neighbours> neighbours;       ///< of each surface tile but the borrowed ones
+    /// In a part of a mesh: how many of the surface tiles, the last ones, are another part's. Stages read
+    /// their records, and make none for them.
+    std::int64_t borrowed = 0;
 
     std::int64_t surfaceCount() const { return std::int64_t(surfaceTiles.size()); }
+    std::int64_t ownCount() const { return surfaceCount() - borrowed; }
     /// Of a surface tile: L_A's lowest vertex, in units of the lattice.
     openvdb::Vec3d origin(TileRef tile) const { return 8.0 * surfaceTiles[std::size_t(tile)].asVec3d(); }
 };
+
+/// Whether the lowest and the highest vertex of a tile, of those with x and y of 0, are inside.
+struct TileEnds {
+    bool lowest, highest;
+
+    static TileEnds of(const TileSigns& signs) {
+        return {signs[bcc::A].test(TileMask::bit(0, 0, 0)), signs[bcc::A].test(TileMask::bit(0, 0, 7))};
+    }
+};
+
+/// @brief Find the runs of interior tiles between surface tiles.
+/// @param surfaceTiles  ascending
+/// @param ends          of each
+/// @return the spans of both; a surface tile's record is its index
+/// @throw UnboundedInside where a column of tiles starts or ends inside
+Spans makeSpans(const std::vector<openvdb::Coord>& surfaceTiles, const std::vector<TileEnds>& ends);
 
 /// @brief Lay out the tiles.
 /// @param surfaceTiles  as Field::surfaceTiles() gives them

@@ -6,6 +6,7 @@
 
 #include <openvdb/Types.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -14,8 +15,9 @@ namespace vdbtet {
 
 /// A tile as its neighbours see it: the index of a tile that has a record, or one of the two constants below.
 using TileRef = std::int32_t;
-constexpr TileRef kInside = -1;  ///< all vertices inside and far from any cut edge
-constexpr TileRef kOutside = -2; ///< all vertices outside and far from any cut edge
+constexpr TileRef kInside = -1;    ///< all vertices inside and far from any cut edge
+constexpr TileRef kOutside = -2;   ///< all vertices outside and far from any cut edge
+constexpr TileRef kElsewhere = -3; ///< in a part of a mesh: a surface tile of another part, not borrowed
 
 /// A tile with a record, or a run of interior tiles that are all alike.
 struct Span {
@@ -42,6 +44,21 @@ public:
     std::int64_t find(const openvdb::Coord& tile) const;
 
     SpansAround around(const openvdb::Coord& tile) const;
+
+    /// Call @a visit(s) for each span that has a tile in a box.
+    template <typename Visit>
+    void forEachIn(const openvdb::CoordBBox& box, Visit&& visit) const {
+        for (int x = box.min().x(); x <= box.max().x(); ++x) {
+            for (auto column = lowerColumn(x, box.min().y());
+                 column != mColumns.end() && column->x == x && column->y <= box.max().y(); ++column) {
+                auto s = std::partition_point(
+                             mSpans.begin() + column->begin, mSpans.begin() + column->end,
+                             [&](const Span& span) { return span.first.z() + span.count <= box.min().z(); }) -
+                         mSpans.begin();
+                for (; s < column->end && mSpans[s].first.z() <= box.max().z(); ++s) visit(s);
+            }
+        }
+    }
 
 private:
     /// The tiles of equal x and y.

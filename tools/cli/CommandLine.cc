@@ -57,9 +57,9 @@ std::vector<std::string> withTargets(int argc, const char* const* argv) {
     return arguments;
 }
 
-void check(const CommandLine& line) {
+void check(const CommandLine& line, bool ranks) {
     if (line.out.empty() && !line.dryRun) throw UsageError("OUT is missing; --help lists the options");
-    if (!line.out.empty() || !line.format.empty()) {
+    if ((!line.out.empty() || !line.format.empty()) && !(ranks && isPvtu(line))) {
         const vdbtet::MeshFormat& format =
             vdbtet::MeshFile::formatOf(line.out, line.format, line.formatOptions); // or it throws
         if (line.hasFields()) vdbtet::MeshFile::requireFields(format);
@@ -107,7 +107,11 @@ std::string unknown(const CLI::App& app, const std::string& argument) {
 
 } // namespace
 
-std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
+bool isPvtu(const CommandLine& line) {
+    return line.format.empty() && std::filesystem::path(line.out).extension() == ".pvtu";
+}
+
+std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv, bool ranks) {
     CommandLine line;
     vdbtet::Options& options = line.options;
     const CLI::Validator positive(isPositive, "");
@@ -321,6 +325,6 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
     splitFiles(line, std::move(files));
     line.distance = distance->count() > 0;
     if (upAxis->count() + metersPerUnit->count() + usdSurface->count() > 0) line.formatOptions.usd = usd;
-    check(line);
+    check(line, ranks);
     return line;
 }

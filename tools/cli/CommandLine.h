@@ -42,6 +42,10 @@ struct CommandLine {
     }
 };
 
+/// @param ranks  of vdb_tet_mpi, which knows .pvtu files, too
 /// @return nothing when help or the version was asked for, and has been printed
 /// @throw UsageError, vdbtet::BadOption, and vdbtet::FileError where that cannot be printed
-std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv);
+std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv, bool ranks = false);
+
+/// Whether OUT is a .pvtu file.
+bool isPvtu(const CommandLine& line);

@@ -50,6 +50,11 @@ std::unique_ptr<Format> makeInp(const MeshTotals& totals);
 std::unique_ptr<Format> makeGeo(const MeshTotals& totals);
 std::unique_ptr<Format> makeUsda(const MeshTotals& totals, const UsdOptions& options);
 
+/// Lay a mesh out in a format by its name or by the path's extension.
+/// @throw BadOption, TooLarge, FileError as MeshFile::begin()
+std::unique_ptr<const Format> makeFormat(const std::string& path, const std::string& name,
+                                         const MeshTotals& totals, const FormatOptions& options);
+
 /// Put numbers into a record, as @a T.
 template <typename T, typename Value>
 void storeAs(char* to, const Value* values, std::size_t count) {
