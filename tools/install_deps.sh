@@ -11,7 +11,7 @@ for option in "$@"; do
     case $option in
     --tests) packages="$packages catch2 python3 libopenmpi-dev openmpi-bin" ;;
     --bench) packages="$packages libbenchmark-dev python3" ;;
-    --fuzz) packages="$packages clang libclang-rt-dev" ;;
+    --fuzz) packages="$packages clang libclang-rt-dev llvm" ;;
     --coverage) packages="$packages gcovr" ;;
     --ci)
         packages="$packages clang-format-14 python3-vtk9 python3-h5py python3-meshio python3-gmsh tetgen

@@ -78,6 +78,7 @@ class VdbTet(ToolTest):
     def test_usage_errors(self):
         for pattern, arguments in [
             ("IN is required", []),
+            ("IN is empty", ["", "o.vtu"]),
             ("OUT is missing", ["sphere.vdb"]),
             ("--nonsense", ["sphere.vdb", "o.vtu", "--nonsense"]),
             ("--voxels", ["sphere.vdb", "o.vtu", "-s", "1", "-v", "1"]),

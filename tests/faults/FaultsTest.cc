@@ -295,7 +295,7 @@ TEST_CASE("any write may fail, in every format") {
     surface.checkRename();
 }
 
-TEST_CASE("any chunk may be refused, in every format", "[threads]") {
+TEST_CASE("any chunk may be refused, in every format") {
     const auto grid = levelSet(sphere({0.3, -0.2, 0.1}, 20.3));
     for (const MeshFormat& format : meshFormats()) {
         CAPTURE(format.name);

@@ -22,7 +22,7 @@ enum class Outcome {
 /// @brief Fork, work there, and wait.
 /// @details The counters by which libFuzzer sees what was reached are memory that both processes share. What
 /// the child prints is seen only if it is a finding.
-/// @param work  told how to say where it is; must not throw, nor return where a sanitizer would end it
+/// @param work  told how to say where it is; must not throw
 /// @return how it ended; a finding aborts this process, as libFuzzer expects it
 Outcome runForked(const std::function<Outcome(const std::function<void(Stage)>& enter)>& work);
 

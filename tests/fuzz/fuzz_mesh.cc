@@ -1,6 +1,6 @@
 /// @file fuzz_mesh.cc
-/// Bytes are options, a transform and voxels; whatever they are, the mesh is valid, or there is an exception of
-/// this library.
+/// Bytes are options, a transform and voxels; whatever they are, the mesh is valid, or there is an exception
+/// of this library.
 #include "fuzz/MeshFault.h"
 
 #include <vdbtet/Errors.h>
@@ -101,7 +101,7 @@ typename GridT::Ptr gridFrom(Bytes& bytes) {
     const auto grid = GridT::create(Value(std::int8_t(bytes.next())) / 16);
     grid->setTransform(transformFrom(bytes));
     grid->setGridClass(openvdb::GridClass(bytes.below(4)));
-    constexpr openvdb::Int32 kPlaces[] = {-4, 1000000, 2147483647 - kDim}; // the last is where coordinates end
+    constexpr openvdb::Int32 kPlaces[] = {-4, 1000000, 2147483647 - kDim}; // where coordinates end
     const unsigned place = bytes.below(8);
     const openvdb::Coord corner(kPlaces[place < 3 ? place : 0], -4, -4);
     auto accessor = grid->getAccessor();

@@ -23,7 +23,7 @@ void require(bool holds, const char* what) {
     std::abort();
 }
 
-/// What the rest of the tool relies on.
+/// What the rest of the tool relies on. Options of the mesher are for that to judge.
 void requireSound(const CommandLine& line) {
     require(!line.inputs.empty(), "there is an input");
     require(!line.out.empty() || line.dryRun, "there is an output");
@@ -33,8 +33,6 @@ void requireSound(const CommandLine& line) {
     require(std::isfinite(options.voxels) && options.voxels > 0.0, "voxels are a positive number");
     require(!options.spacing || (std::isfinite(*options.spacing) && *options.spacing > 0.0),
             "the spacing is a positive number");
-    require(options.tiger >= 1 && options.tiger <= 3, "there are three versions");
-    require(options.sweeps >= 1 && options.sweeps <= 1000, "sweeps are in their range");
 }
 
 void parse(const std::vector<const char*>& arguments) {

@@ -28,7 +28,8 @@ typename GridT::Ptr ball(const std::string& name, double radius = 2.0) {
 
 /// Small files of all kinds that readGrid() knows.
 void writeVolumes(const fs::path& folder) {
-    const auto write = [&](const std::string& name, const openvdb::GridCPtrVec& grids, std::uint32_t compression) {
+    const auto write = [&](const std::string& name, const openvdb::GridCPtrVec& grids,
+                           std::uint32_t compression) {
         openvdb::io::File file((folder / name).string());
         file.setCompression(compression);
         openvdb::MetaMap metadata;
@@ -54,7 +55,8 @@ void writeVolumes(const fs::path& folder) {
     write("fog.vdb", {fog, vectors}, COMPRESS_ACTIVE_MASK);
     write("shared.vdb", {twin, shared}, COMPRESS_ACTIVE_MASK);
     write("namesakes.vdb", {ball("ball", 1.0), ball("ball", 1.0), ball("", 1.0)}, COMPRESS_ACTIVE_MASK);
-    write("tiles.vdb", {constantTiles(8, {openvdb::Coord(0), openvdb::Coord(8, 0, 0)}, true)}, COMPRESS_ACTIVE_MASK);
+    write("tiles.vdb", {constantTiles(8, {openvdb::Coord(0), openvdb::Coord(8, 0, 0)}, true)},
+          COMPRESS_ACTIVE_MASK);
     write("large_tile.vdb", {constantTiles(128, {openvdb::Coord(0)}, false)}, COMPRESS_ACTIVE_MASK);
     write("empty.vdb", {openvdb::FloatGrid::create(1.0f)}, COMPRESS_NONE);
     write("nothing.vdb", {}, COMPRESS_NONE);

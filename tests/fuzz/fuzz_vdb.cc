@@ -1,8 +1,9 @@
 /// @file fuzz_vdb.cc
 /// Bytes are a .vdb file. It is read or refused, and what is read is meshed or refused.
 ///
-/// OpenVDB writes beyond its buffers on some damaged files (SECURITY.md), which is why vdb_tet reads in a child
-/// process. So does this: what ends inside OpenVDB's library while it reads is counted, and is no finding.
+/// OpenVDB writes beyond its buffers on some damaged files (SECURITY.md), which is why vdb_tet reads in a
+/// child process. So does this: what ends inside OpenVDB's library while it reads is counted, and is no
+/// finding.
 #include "fuzz/ForkedRun.h"
 #include "fuzz/MeshFault.h"
 

@@ -1,7 +1,7 @@
 /// The parts along the curve.
 #include "support/Catch.h"
 
-#include "Partition.h"
+#include "mpi/Partition.h"
 
 #include <algorithm>
 #include <vector>

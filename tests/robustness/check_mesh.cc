@@ -64,7 +64,8 @@ std::string faultOf(const test::MeshFigures& f) {
     if (f.overusedFaces || f.misorientedFaces) return "faces of three tets, or seen alike from both sides";
     if (f.unusedPoints) return "points that no tet has";
     if (f.nonmanifoldEdges || f.nonmanifoldPoints) return "a boundary that is not a surface";
-    if (f.minAngle < kLeast - f.precision || f.maxAngle > kGreatest + f.precision) return "angles out of bound";
+    if (f.minAngle < kLeast - f.precision || f.maxAngle > kGreatest + f.precision)
+        return "angles out of bound";
     return {};
 }
 

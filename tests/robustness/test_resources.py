@@ -57,8 +57,8 @@ class Resources(ToolTest):
 
     def test_tile_bombs_are_refused_at_once(self):
         for options in ((), ("--grade",), ("--voxels", "3"), ("--tiger", "3", "--optimize")):
-            self.assert_refused("lattice tiles|limit", "bomb_16384.vdb", "out/o.vtu", *options)
-        self.assert_refused("of memory", "bomb_4096.vdb", "out/o.vtu", "--grade", "--max-memory", "1G")
+            self.assert_refused("lattice tiles|limit", "bomb_16384.vdb", "out/o.vtu", "-q", *options)
+        self.assert_refused("of memory", "bomb_4096.vdb", "out/o.vtu", "-q", "--grade", "--max-memory", "1G")
 
     def test_values_without_a_sign(self):
         where = r"ball.*: 3 voxels or tiles .*\[9, 0, 0\], in world space \[0\.9, 0, 0\]; .*inside or outside"

@@ -58,6 +58,8 @@ std::vector<std::string> withTargets(int argc, const char* const* argv) {
 }
 
 void check(const CommandLine& line, bool ranks) {
+    if (std::count(line.inputs.begin(), line.inputs.end(), "") > 0)
+        throw UsageError("IN is empty; name a file");
     if (line.out.empty() && !line.dryRun) throw UsageError("OUT is missing; --help lists the options");
     if ((!line.out.empty() || !line.format.empty()) && !(ranks && isPvtu(line))) {
         const vdbtet::MeshFormat& format =

@@ -1,10 +1,10 @@
 /// @file RankPipeline.cc
 /// Each stage does what is the rank's own; what it needs of others is exchanged between two stages.
-#include "RankPipeline.h"
+#include "mpi/RankPipeline.h"
 
-#include "RankGrading.h"
-#include "RankRepair.h"
-#include "RankStages.h"
+#include "mpi/RankGrading.h"
+#include "mpi/RankRepair.h"
+#include "mpi/RankStages.h"
 
 #include "BeginRun.h"
 #include "Stage.h"

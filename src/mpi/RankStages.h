@@ -2,8 +2,8 @@
 /// The stages that need other ranks' records: each does its own tiles, then gets those of the borrowed ones.
 #pragma once
 
-#include "Comm.h"
-#include "TileExchange.h"
+#include "mpi/Comm.h"
+#include "mpi/TileExchange.h"
 
 #include "destinations/LocalVertices.h"
 #include "flips/Flips.h"

@@ -1,6 +1,6 @@
 /// @file Piece.cc
 /// Two passes over the tets: the points of others, then local numbers.
-#include "Piece.h"
+#include "mpi/Piece.h"
 
 #include <vdbtet/MeshSink.h>
 

@@ -1,6 +1,6 @@
 /// @file Comm.cc
 /// Messages in pieces whose size fits an int.
-#include "Comm.h"
+#include "mpi/Comm.h"
 
 #include <vdbtet/Errors.h>
 

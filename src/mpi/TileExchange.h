@@ -2,7 +2,7 @@
 /// Keeps borrowed tiles' records up to date.
 #pragma once
 
-#include "Comm.h"
+#include "mpi/Comm.h"
 
 #include "tiles/Spans.h"
 

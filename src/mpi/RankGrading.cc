@@ -1,6 +1,6 @@
 /// @file RankGrading.cc
 /// All octants on all ranks; counts and used vertices by tier.
-#include "RankGrading.h"
+#include "mpi/RankGrading.h"
 
 #include <tbb/parallel_sort.h>
 

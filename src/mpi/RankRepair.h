@@ -2,7 +2,7 @@
 /// repairBoundary() of the whole mesh.
 #pragma once
 
-#include "Comm.h"
+#include "mpi/Comm.h"
 
 #include "repair/Repair.h"
 

@@ -2,8 +2,8 @@
 /// From a file to each rank's part of the tiles: first who finds which tiles, then who does them.
 #include <vdbtet/mpi/VolumeToTets.h>
 
-#include "Partition.h"
-#include "RankPipeline.h"
+#include "mpi/Partition.h"
+#include "mpi/RankPipeline.h"
 
 #include "BeginRun.h"
 #include "ChooseLevel.h"

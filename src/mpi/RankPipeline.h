@@ -2,8 +2,8 @@
 /// The stages in order, for a rank's part of the tiles.
 #pragma once
 
-#include "Comm.h"
-#include "RankPart.h"
+#include "mpi/Comm.h"
+#include "mpi/RankPart.h"
 
 #include "bcc/Frame.h"
 #include "field/Field.h"

@@ -2,8 +2,8 @@
 /// What follows the surface: octants, numbers, and which of them are a rank's.
 #pragma once
 
-#include "Comm.h"
-#include "RankPart.h"
+#include "mpi/Comm.h"
+#include "mpi/RankPart.h"
 
 #include "grading/Grading.h"
 #include "numbering/Numbering.h"

@@ -1,6 +1,6 @@
 /// @file RankRepair.cc
 /// A mesh of its own for the tiles around the bad vertices.
-#include "RankRepair.h"
+#include "mpi/RankRepair.h"
 
 #include <tbb/parallel_sort.h>
 

@@ -1,6 +1,6 @@
 /// @file Partition.cc
 /// Keys by the bits of coordinates, interleaved.
-#include "Partition.h"
+#include "mpi/Partition.h"
 
 #include <tbb/parallel_sort.h>
 

@@ -1,6 +1,6 @@
 /// @file RankPart.cc
 /// From all tiles to those of a rank.
-#include "RankPart.h"
+#include "mpi/RankPart.h"
 
 #include <algorithm>
 #include <tuple>

@@ -2,8 +2,8 @@
 /// Spools, then whose points are missing, then the piece.
 #include <vdbtet/mpi/PvtuFile.h>
 
-#include "Comm.h"
-#include "Piece.h"
+#include "mpi/Comm.h"
+#include "mpi/Piece.h"
 
 #include "io/OutputFile.h"
 

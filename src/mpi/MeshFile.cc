@@ -2,7 +2,7 @@
 /// Rank 0 makes the files, and gives them their names in the end.
 #include <vdbtet/mpi/MeshFile.h>
 
-#include "Comm.h"
+#include "mpi/Comm.h"
 
 #include "io/formats/Format.h"
 

@@ -2,7 +2,7 @@
 /// The tiles of one rank: its own, and those that it borrows.
 #pragma once
 
-#include "TileExchange.h"
+#include "mpi/TileExchange.h"
 
 #include "emit/Emit.h"
 #include "tiles/Layout.h"

@@ -1,6 +1,6 @@
 /// @file RankStages.cc
 /// Work and exchange, in turns.
-#include "RankStages.h"
+#include "mpi/RankStages.h"
 
 #include "labels/Labelling.h"
 

@@ -1,6 +1,6 @@
 /// @file TileExchange.cc
 /// Lists by rank.
-#include "TileExchange.h"
+#include "mpi/TileExchange.h"
 
 #include <algorithm>
 
