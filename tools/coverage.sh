@@ -1,6 +1,6 @@
 #!/bin/sh
-# Measures which lines of the library the unit tests run, slow ones left out, and the corpora of the fuzzers, if
-# tools/fuzz.sh has made some. Prints a table of files, and the sum; details are in build/coverage/lines.
+# Measures which lines of the library the unit tests run, slow ones left out. Prints a table of files, and the sum;
+# details are in build/coverage/lines.
 #
 # usage: tools/coverage.sh
 set -eu
