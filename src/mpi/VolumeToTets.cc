@@ -33,6 +33,8 @@ void checkOptions(const Options& options) {
         throw BadOption("version 3 of the method is not known to several ranks yet; vdb_tet has it");
     if (options.nan != Nan::Error)
         throw BadOption("values for NaN are not known to several ranks yet; vdb_tet has them");
+    if (options.maxMemory)
+        throw BadOption("a limit on memory is not known to several ranks yet; vdb_tet has it");
     if (options.optimize) throw BadOption("optimisation is not known to several ranks yet; vdb_tet has it");
 }
 

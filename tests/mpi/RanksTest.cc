@@ -65,10 +65,12 @@ struct Compared final : MeshSink {
         return sameTotals;
     }
     void chunk(const MeshChunk& chunk) override {
-        const bool same = std::memcmp(chunk.points.data(), whole.points.data() + chunk.firstPoint,
-                                      chunk.points.size() * sizeof(openvdb::Vec3d)) == 0 &&
-                          std::memcmp(chunk.tets.data(), whole.tets.data() + chunk.firstTet,
-                                      chunk.tets.size() * sizeof(Tet)) == 0;
+        const auto isSame = [](const auto& part, const auto& all, std::int64_t first) {
+            return part.size() == 0 ||
+                   std::memcmp(part.data(), all.data() + first, part.size() * sizeof(all[0])) == 0;
+        };
+        const bool same = isSame(chunk.points, whole.points, chunk.firstPoint) &&
+                          isSame(chunk.tets, whole.tets, chunk.firstTet);
         if (!same) ++different;
         points += std::int64_t(chunk.points.size());
         tets += std::int64_t(chunk.tets.size());
