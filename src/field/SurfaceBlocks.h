@@ -149,7 +149,7 @@ public:
     /// @throw TooLarge once there are more than kBlocksPerTile for each of maxTiles, and at the ends of
     /// coordinates
     void visit(const openvdb::CoordBBox& tile) {
-        const int size = tile.dim().x();
+        const int size = tile.max().x() - tile.min().x() + 1; // dim() would overflow at the end
         requireRoom(tile.min(), size);
         for (int slot = 0; slot < 27; ++slot) {
             if (slot == neighbourSlot(0, 0, 0)) continue;
