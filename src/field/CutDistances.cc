@@ -52,7 +52,7 @@ struct Cubics {
 void distancesToCuts(const CutEdges& edges, bool nearIsB, float* distance, Isa isa) {
     Cubics phi;
     double reach[kLanes], far[kLanes], root[kLanes];
-    std::int64_t open[kLanes], steep[kLanes]; // 0 or 1, as wide as a double
+    std::int64_t open[kLanes], falling[kLanes]; // 0 or 1, as wide as a double
     runOn(isa, [&]() VDBTET_KERNEL {
         for (int i = 0; i < kLanes; ++i) reach[i] = edges.near[i] >= 0.0 ? edges.tau[i] : 1.0 - edges.tau[i];
         phi.set(edges, nearIsB, reach);
@@ -62,7 +62,7 @@ void distancesToCuts(const CutEdges& edges, bool nearIsB, float* distance, Isa i
             // By the rule for ties the cut point may lie just beyond.
             const bool cut = (near > 0.0) & (far[i] < 0.0) & (i < edges.count);
             open[i] = cut ? 1 : 0;
-            steep[i] = phi.falls(i) ? 1 : 0;
+            falling[i] = phi.falls(i) ? 1 : 0;
             root[i] = cut ? near / (near - far[i]) : near > 0.0 ? 1.0 : 0.0;
         }
         for (int step = 0; step < kNewtonSteps; ++step) {
@@ -71,10 +71,10 @@ void distancesToCuts(const CutEdges& edges, bool nearIsB, float* distance, Isa i
                 const double x = root[i], to = x - phi(i, x) / phi.slope(i, x);
                 const double low = to > 0.0 ? to : 0.0, next = low < 1.0 ? low : 1.0;
                 const double moved = std::abs(next - x);
-                const bool going = (open[i] & steep[i]) != 0;
+                const bool going = (open[i] & falling[i]) != 0;
                 root[i] = going ? next : x;
                 open[i] = (going & (moved < kRootTolerance)) ? 0 : open[i];
-                left += open[i] & steep[i];
+                left += open[i] & falling[i];
             }
             if (left == 0) break;
         }

@@ -40,16 +40,6 @@ Options as(Nan nan, Options options = {}) {
     return options;
 }
 
-template <typename Exception>
-std::string refusal(const openvdb::GridBase& grid, const Options& options = {}) {
-    try {
-        meshOf(grid, options);
-    } catch (const Exception& error) {
-        return error.what();
-    }
-    return "";
-}
-
 } // namespace
 
 TEST_CASE("a grid with values that have no sign is refused with their number and the place of the first") {

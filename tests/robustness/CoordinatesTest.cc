@@ -22,16 +22,6 @@ constexpr int kLast = std::numeric_limits<int>::max(), kFirst = std::numeric_lim
 
 FloatGrid::Ptr ball() { return levelSet(sphere({0.3, -0.2, 0.1}, 8.2)); }
 
-template <typename Exception>
-std::string refusal(const openvdb::GridBase& grid, const Options& options = {}) {
-    try {
-        meshOf(grid, options);
-    } catch (const Exception& error) {
-        return error.what();
-    }
-    return "";
-}
-
 bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }

@@ -5,6 +5,8 @@
 #include <vdbtet/TetMesh.h>
 #include <vdbtet/VolumeToTets.h>
 
+#include <string>
+
 namespace vdbtet::test {
 
 struct Meshed {
@@ -16,6 +18,17 @@ inline Meshed meshOf(const openvdb::GridBase& grid, const Options& options = {})
     Meshed result;
     result.report = volumeToTets(grid, result.mesh, options);
     return result;
+}
+
+/// @return what the grid is refused with, or nothing where it is meshed.
+template <typename Exception>
+std::string refusal(const openvdb::GridBase& grid, const Options& options = {}) {
+    try {
+        meshOf(grid, options);
+    } catch (const Exception& error) {
+        return error.what();
+    }
+    return "";
 }
 
 inline Options atVoxels(double voxels, int tiger = 2) {
