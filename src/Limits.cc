@@ -20,10 +20,9 @@ std::string gigabytes(std::int64_t bytes) {
     return text;
 }
 
-/// @param atLeast  said before the number
-[[noreturn]] void throwTooMany(const char* atLeast, std::int64_t tets, const Options& options) {
-    throw TooLarge(std::string("the mesh would have ") + atLeast + std::to_string(tets) +
-                   " tets, more than the limit of " + std::to_string(options.maxTets) +
+/// @param tets  how many more than the limit
+[[noreturn]] void throwTooMany(const std::string& tets, const Options& options) {
+    throw TooLarge("the mesh would have " + tets + " than the limit of " + std::to_string(options.maxTets) +
                    "; use a coarser spacing, " + (options.grade ? "" : "grade the inside, ") +
                    "or raise the limit");
 }
@@ -45,6 +44,15 @@ void requireMemory(std::int64_t bytes, const Options& options) {
                    gigabytes(*options.maxMemory) + "; use a coarser spacing, or raise the limit");
 }
 
+std::int64_t mostInsideTets(const Options& options) {
+    return options.grade ? std::numeric_limits<std::int64_t>::max() : options.maxTets;
+}
+
+void requireFewInsideTets(std::int64_t insideTets, const Options& options) {
+    // How many there are depends on the threads: counting ends when the limit is passed.
+    if (insideTets > mostInsideTets(options)) throwTooMany("more tets", options);
+}
+
 void requireFewTets(const Layout& layout, const Options& options) {
     if (options.grade) return;
     constexpr std::int64_t kTetsPerTile = 12 * TileMask::kSize;
@@ -52,11 +60,12 @@ void requireFewTets(const Layout& layout, const Options& options) {
     for (const Span& span : layout.spans) tiles += span.tile == kInside ? span.count : 0;
     if (tiles <= options.maxTets / kTetsPerTile) return;
     constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max() / kTetsPerTile;
-    throwTooMany("at least ", std::min(tiles, kMost) * kTetsPerTile, options);
+    throwTooMany("at least " + std::to_string(std::min(tiles, kMost) * kTetsPerTile) + " tets, more",
+                 options);
 }
 
 void requireFewTets(std::int64_t tets, const Options& options) {
-    if (tets > options.maxTets) throwTooMany("", tets, options);
+    if (tets > options.maxTets) throwTooMany(std::to_string(tets) + " tets, more", options);
 }
 
 } // namespace vdbtet

@@ -16,6 +16,13 @@ std::int64_t estimateMemory(std::int64_t surfaceTiles, const Options& options);
 /// @throw TooLarge where that, and the grid, are more than Options::maxMemory
 void requireMemory(std::int64_t bytes, const Options& options);
 
+/// @return how many inside tets of the uniform mesh are too many, as far as the mesh will have them
+std::int64_t mostInsideTets(const Options& options);
+
+/// @param insideTets  some of those that a uniform mesh will have
+/// @throw TooLarge where they alone are more than Options::maxTets
+void requireFewInsideTets(std::int64_t insideTets, const Options& options);
+
 /// @throw TooLarge where the uniform inside has more tets than Options::maxTets by its interior tiles alone
 void requireFewTets(const Layout& layout, const Options& options);
 

@@ -50,9 +50,11 @@ bool mesh(const Field& field, const Frame& frame, const Options& options, int ma
     requireMemory(report.memory, options);
     const bool isThird = options.tiger == 3;
     const double tau = isThird ? options.tau.value_or(kDefaultTau) : 0.5;
-    std::optional<Cuts> cuts =
-        stage("cuts", [&] { return std::make_optional(findCuts(field, tiles, tau, interrupt)); });
+    std::optional<Cuts> cuts = stage("cuts", [&] {
+        return std::make_optional(findCuts(field, tiles, tau, interrupt, mostInsideTets(options)));
+    });
     if (report.cancelled) return true;
+    requireFewInsideTets(cuts->insideTets, options);
     const std::vector<TileSigns> signs = std::move(cuts->signs);
     const Layout layout = stage("layout", [&] { return makeLayout(std::move(tiles), signs, interrupt); });
     if (report.cancelled) return true;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 
 namespace vdbtet {
 
@@ -64,7 +65,20 @@ Frame makeFrame(const openvdb::math::Transform& transform, double spacing) {
     const auto edges = voxelEdges(transform);
     // All in units of the spacing, so that voxels of 1e-20 or 1e+20 neither underflow nor overflow.
     std::array<Vec3d, 3> e;
-    for (int i = 0; i < 3; ++i) e[i] = edges[i] / spacing;
+    for (int i = 0; i < 3; ++i) {
+        e[i] = edges[i] / spacing;
+        // Products of three, and their inverses, must be numbers.
+        constexpr double kMost = 1e60;
+        const double length = e[i].length();
+        if (!(length < kMost && length > 1.0 / kMost)) {
+            char text[160];
+            std::snprintf(text, sizeof text,
+                          "a voxel has an edge %.3g times as long as the spacing; give the grid another "
+                          "transform, or mesh it with another spacing",
+                          length);
+            throw UnsupportedGrid(text);
+        }
+    }
     const double lengths = e[0].length() * e[1].length() * e[2].length();
     const double det = e[0].dot(e[1].cross(e[2]));
     if (!(std::abs(det) > 1e-12 * lengths) || !std::isfinite(det)) throwSingular();

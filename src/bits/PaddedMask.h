@@ -83,6 +83,15 @@ public:
         return result;
     }
 
+    /// @return the same the other way: its bit n + @a step is bit n of this one, if that is in its row and
+    /// slab.
+    PaddedMask movedUp(int step) const {
+        PaddedMask result;
+        const int skipped = step / kRowBits, shift = step % kRowBits;
+        for (int r = skipped; r < kRows; ++r) result.rows[r] = std::uint16_t(rows[r - skipped] << shift);
+        return result;
+    }
+
     /// @return the bits of the tile itself.
     TileMask core() const { return shifted(0, 0, 0); }
 

@@ -46,11 +46,29 @@ PaddedMask edgesWithAnyEnd(const PaddedMask& a, const PaddedMask& b, int directi
     return edgesByEnds(a, b, direction, [](int ownRow, int farRow) { return ownRow | farRow; });
 }
 
+/// @return how many tets around the spines from a tile's L_A vertices have inside vertices alone, whichever
+/// way their octahedra are cut: each tet of the lattice is around one such spine.
+std::int64_t countInsideTets(const PaddedMask& a, const PaddedMask& b) {
+    const TileMask own = a.core();
+    if (!own.any()) return 0;
+    std::int64_t octahedra = 0;
+    for (const bcc::Octahedron& octahedron : bcc::kOctahedra[bcc::A]) {
+        TileMask inside = own;
+        for (const bcc::Vertex& v : octahedron) {
+            const PaddedMask& mask = v.lattice == bcc::A ? a : b;
+            inside &= mask.shifted(v.x, v.y, v.z);
+        }
+        octahedra += inside.count();
+    }
+    return 4 * octahedra;
+}
+
 /// What findCuts() makes for one tile.
 struct TileCuts {
     TileSigns signs;
     std::unique_ptr<const TileArrows> arrows;
     std::int64_t cutEdges = 0; ///< that start at its L_A vertices
+    std::int64_t insideTets = 0;
 };
 
 /// Finds the signs and arrows of one tile after another.
@@ -65,6 +83,7 @@ public:
         PaddedMask a, b;
         mSampler->signs(tile, a, b);
         cuts.signs = {a.core(), b.core()};
+        cuts.insideTets = countInsideTets(a, b);
 
         PaddedEdgeMasks cut, nearer;
         bool any = false;
@@ -112,26 +131,30 @@ VertexRef farEnd(const Neighbours& neighbours, const VertexRef& v, int direction
     return {tile, bcc::other(v.lattice), TileMask::bit(x & 7, y & 7, z & 7)};
 }
 
-Cuts findCuts(const Field& field, const std::vector<openvdb::Coord>& tiles, double tau,
-              Interrupt& interrupt) {
+Cuts findCuts(const Field& field, const std::vector<openvdb::Coord>& tiles, double tau, Interrupt& interrupt,
+              std::int64_t mostTets) {
     Cuts cuts;
     cuts.signs.resize(tiles.size());
     cuts.arrows.of.resize(tiles.size());
-    std::atomic<std::int64_t> cutEdges{0};
+    std::atomic<std::int64_t> cutEdges{0}, insideTets{0};
     tbb::enumerable_thread_specific<TileCutter> cutters([&] { return TileCutter(field.sampler()); });
     interrupt.expectLoops(1);
     parallelRanges(std::int64_t(tiles.size()), interrupt, [&](std::int64_t begin, std::int64_t end) {
+        if (insideTets > mostTets) return;
         TileCutter& cutter = cutters.local();
-        std::int64_t sum = 0;
+        std::int64_t edges = 0, tets = 0;
         for (std::int64_t t = begin; t < end; ++t) {
             TileCuts tile = cutter.cut(tiles[t], tau);
             cuts.signs[t] = tile.signs;
             cuts.arrows.of[t] = std::move(tile.arrows);
-            sum += tile.cutEdges;
+            edges += tile.cutEdges;
+            tets += tile.insideTets;
         }
-        cutEdges += sum;
+        cutEdges += edges;
+        insideTets += tets;
     });
     cuts.arrows.cutEdges = cutEdges;
+    cuts.insideTets = insideTets;
     for (std::size_t t = 0; t < tiles.size(); ++t) {
         if (cuts.arrows.of[t]) cuts.arrows.tiles.push_back(TileRef(t));
     }

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -49,12 +50,15 @@ struct Arrows {
 struct Cuts {
     std::vector<TileSigns> signs; ///< of each surface tile; decided here, once: all later stages read them
     Arrows arrows;
+    std::int64_t insideTets = 0; ///< of the uniform mesh, with inside vertices alone: these tiles'
 };
 
 /// @brief Find the signs and the arrows of @a tiles.
 /// @param tau  of the threshold; no vertex is flagged
+/// @param mostTets  ends early, with a part of all, once there are more inside tets than this
 /// @details A tile's edges that end in its neighbours are decided by both: the same values, so the same bits.
-Cuts findCuts(const Field& field, const std::vector<openvdb::Coord>& tiles, double tau, Interrupt& interrupt);
+Cuts findCuts(const Field& field, const std::vector<openvdb::Coord>& tiles, double tau, Interrupt& interrupt,
+              std::int64_t mostTets = std::numeric_limits<std::int64_t>::max());
 
 /// Find the arrows of some of the tiles again.
 void turnArrows(const Field& field, const Layout& layout, const Threshold& threshold,

@@ -3,7 +3,7 @@
 #include "field/VoxelBlock.h"
 
 #include "field/Diagonal.h"
-#include "field/Root.h"
+#include "field/VoxelCube.h"
 
 #include <algorithm>
 #include <cstring>
@@ -63,6 +63,54 @@ decltype(auto) withDirection(int direction, Work&& work) {
     }
 }
 
+/// The cubes of voxels whose centres are set.
+struct CubeList {
+    explicit CubeList(const PaddedMask& centres) {
+        centres.forEach([&](int n) { lowest[count++] = std::uint16_t(n); });
+    }
+
+    int count = 0;
+    std::uint16_t lowest[PaddedMask::kDim * PaddedMask::kDim * PaddedMask::kDim];
+};
+
+/// Masks of the centres of cubes for each of their corners, a lane a corner while they are being made.
+class CornerRows {
+public:
+    /// Add the nearer corners of a cube.
+    template <bool kHalved>
+    VDBTET_KERNEL void add(const double* block, int lowest, double tau) {
+        VoxelCube::Corners corners;
+        VoxelCube(block + lowest).nearer<kHalved>(tau, corners);
+        mRows[lowest / kRow] |= Lanes(corners) & std::uint16_t(1 << lowest % kRow);
+    }
+
+    /// @param masks  receives the mask of each corner
+    VDBTET_KERNEL void sort(PaddedEdgeMasks& masks) {
+        for (int r = 0; r < kCentreRows; r += 8) {
+            // Transposed by three perfect shuffles.
+            Lanes block[2][8];
+            std::memcpy(block[0], mRows + r, sizeof block[0]);
+            for (int stage = 0; stage < 3; ++stage) {
+                const auto& from = block[stage % 2];
+                auto& to = block[1 - stage % 2];
+                for (int i = 0; i < 4; ++i) {
+                    to[2 * i] = __builtin_shufflevector(from[i], from[i + 4], 0, 8, 1, 9, 2, 10, 3, 11);
+                    to[2 * i + 1] = __builtin_shufflevector(from[i], from[i + 4], 4, 12, 5, 13, 6, 14, 7, 15);
+                }
+            }
+            for (int corner = 0; corner < bcc::kDirections; ++corner)
+                std::memcpy(masks[corner].rows + r, &block[1][corner], sizeof(Lanes));
+        }
+    }
+
+private:
+    typedef std::uint16_t Lanes __attribute__((vector_size(16)));
+    /// No centre is in the last slab; rounded up to whole blocks.
+    static constexpr int kCentreRows = PaddedMask::kRows - PaddedMask::kDim + 6;
+    static_assert(kCentreRows % 8 == 0 && kCentreRows <= PaddedMask::kRows, "blocks of eight rows");
+    Lanes mRows[kCentreRows] = {};
+};
+
 } // namespace
 
 template <typename T>
@@ -70,18 +118,26 @@ void VoxelBlock::load(const std::array<const T*, 27>& leaves, const Level& level
     const double levelIsovalue = level.isovalue, levelSign = level.insideIsBelow ? -1.0 : 1.0;
     runOn(mIsa, [&]() VDBTET_KERNEL {
         const double isovalue = levelIsovalue, sign = levelSign; // which no store to a row can change
+        double* row = mPhi + PaddedMask::bit(-1, -1, 0);
         for (int x = -1; x <= TileMask::kDim; ++x) {
-            for (int y = -1; y <= TileMask::kDim; ++y) {
-                const T* const* column = &leaves[neighbourSlot(tileStep(x), tileStep(y), 0)];
-                const int n = TileMask::bit(x & 7, y & 7, 0);
-                // The whole row of a leaf at a time, then the ends of its neighbours.
-                double values[TileMask::kDim];
-                for (int z = 0; z < TileMask::kDim; ++z)
-                    values[z] = sign * (double(column[0][n + z]) - isovalue);
-                double* row = mPhi + PaddedMask::bit(x, y, 0);
-                std::memcpy(row, values, sizeof values);
-                row[-1] = sign * (double(column[-1][n + 7]) - isovalue);
-                row[8] = sign * (double(column[1][n]) - isovalue);
+            for (int leafY = -1; leafY <= 1; ++leafY) {
+                const T* const* column = &leaves[neighbourSlot(tileStep(x), leafY, 0)];
+                const T *below = column[-1], *own = column[0], *above = column[1];
+                const int first = leafY < 0 ? TileMask::kDim - 1 : 0, end = leafY > 0 ? 1 : TileMask::kDim;
+                for (int y = first; y < end; ++y, row += kRow) {
+                    const int n = TileMask::bit(x & 7, y, 0);
+                    // The whole row of a leaf at a time, then the ends of its neighbours.
+                    for (int z = 0; z < TileMask::kDim; z += 4) {
+                        typedef T Values __attribute__((vector_size(4 * sizeof(T))));
+                        typedef double Doubles __attribute__((vector_size(4 * sizeof(double))));
+                        Values values;
+                        std::memcpy(&values, own + n + z, sizeof values);
+                        const Doubles phi = sign * (__builtin_convertvector(values, Doubles) - isovalue);
+                        std::memcpy(row + z, &phi, sizeof phi);
+                    }
+                    row[-1] = sign * (double(below[n + 7]) - isovalue);
+                    row[8] = sign * (double(above[n]) - isovalue);
+                }
             }
         }
     });
@@ -94,45 +150,50 @@ void VoxelBlock::signs(PaddedMask& a, PaddedMask& b) const {
     runOn(mIsa, [&]() VDBTET_KERNEL {
         for (int r = 0; r < PaddedMask::kRows; ++r)
             a.rows[r] = insideBits(mPhi + r * kRow) & PaddedMask::kRow;
-        // The mean of the eight corners, by pairs along z, then y, then x.
-        constexpr int kCubes = PaddedMask::kDim - 1;
-        double squares[2][kCubes][kLanes];
-        for (int x = 0; x < PaddedMask::kDim; ++x) {
-            auto& now = squares[x & 1];
-            const auto& before = squares[~x & 1];
-            for (int y = 0; y < kCubes; ++y) {
-                const double* v = mPhi + (x * PaddedMask::kDim + y) * kRow;
-                for (int z = 0; z < kLanes; ++z)
-                    now[y][z] = (v[z] + v[z + 1]) + (v[z + kRow] + v[z + kRow + 1]);
-            }
-            if (x == 0) continue;
-            for (int y = 0; y < kCubes; ++y) {
-                double centres[kLanes];
-                for (int z = 0; z < kLanes; ++z) centres[z] = 0.125 * (before[y][z] + now[y][z]);
-                b.rows[(x - 1) * PaddedMask::kDim + y] = insideBits(centres) & (PaddedMask::kRow >> 1);
-            }
+    });
+    // Where all corners agree, so does the centre.
+    PaddedMask mixed;
+    constexpr int kFar = PaddedMask::kDim + 1;
+    for (int r = 0; r < PaddedMask::kRows - kFar; ++r) {
+        const int all = a.rows[r] & a.rows[r + 1] & a.rows[r + kFar - 1] & a.rows[r + kFar],
+                  any = a.rows[r] | a.rows[r + 1] | a.rows[r + kFar - 1] | a.rows[r + kFar];
+        b.rows[r] = std::uint16_t(all & all >> 1);
+        mixed.rows[r] = std::uint16_t((any | any >> 1) & ~b.rows[r] & PaddedMask::kRow >> 1);
+    }
+    for (int x = 0; x < PaddedMask::kDim; ++x) mixed.rows[(x + 1) * PaddedMask::kDim - 1] = 0; // beyond
+    CubeList cubes(mixed);
+    runOn(mIsa, [&]() VDBTET_KERNEL {
+        for (int i = 0; i < cubes.count; ++i) {
+            const int n = cubes.lowest[i];
+            b.set(n, VoxelCube(mPhi + n).centre() >= 0.0);
         }
     });
 }
 
 void VoxelBlock::nearerToA(const PaddedEdgeMasks& edges, double tau, PaddedEdgeMasks& nearer) const {
-    // By whether the L_A end is inside: what the diagonal's coefficients weigh where the first part ends.
-    double weights[2][4];
-    for (int isInside = 0; isInside < 2; ++isInside) {
-        const double s = 0.5 * (isInside ? tau : 1.0 - tau), r = 1.0 - s;
-        const double all[4] = {r * r * r, r * r * s, r * s * s, s * s * s};
-        std::copy_n(all, 4, weights[isInside]);
-    }
+    PaddedMask centres;
     for (int d = 0; d < bcc::kDirections; ++d) {
-        withDirection(d, [&](auto direction) {
-            edges[d].forEach([&](int n) {
-                const Diagonal phi = diagonalAt<direction>(mPhi + n);
-                const double(&w)[4] = weights[phi.b0 >= 0.0];
-                const double middle = (w[0] * phi.b0 + w[1] * phi.b1) + (w[2] * phi.b2 + w[3] * phi.b3),
-                             centre = 0.125 * ((phi.b0 + phi.b1) + (phi.b2 + phi.b3));
-                nearer[d].set(n, cutInFirstPart(phi.b0, middle, centre));
-            });
-        });
+        const bcc::Step step = bcc::shortEdge(bcc::A, d);
+        centres.add(edges[d].movedDown(PaddedMask::step(-step.x, -step.y, -step.z)));
+    }
+    const CubeList cubes(centres);
+    PaddedEdgeMasks found;
+    runOn(mIsa, [&]() VDBTET_KERNEL {
+        CornerRows rows;
+        if (tau == 0.5) {
+            for (int i = 0; i < cubes.count; ++i) rows.add<true>(mPhi, cubes.lowest[i], tau);
+        } else {
+            for (int i = 0; i < cubes.count; ++i) rows.add<false>(mPhi, cubes.lowest[i], tau);
+        }
+        rows.sort(found);
+    });
+    for (int corner = 0; corner < bcc::kDirections; ++corner) {
+        // From its corner the edge runs the opposite way.
+        const int d = bcc::opposite(corner);
+        const bcc::Step step = bcc::shortEdge(bcc::B, corner);
+        PaddedMask ends = found[corner].movedUp(PaddedMask::step(step.x, step.y, step.z));
+        ends.intersect(edges[d]);
+        nearer[d].add(ends);
     }
 }
 

@@ -65,14 +65,23 @@ private:
         mLoaded = true;
         mTile = tile;
         std::array<const ValueT*, 27> leaves;
-        // Most leaves around are in the same node: it is asked once.
         const openvdb::Coord own(8 * tile.x(), 8 * tile.y(), 8 * tile.z());
+        // Most leaves around are in the same node: it is asked once.
         const auto* node = mAccessor.template probeConstNode<ParentT>(own);
+        constexpr int kLog2 = ParentT::LOG2DIM, kMost = (1 << kLog2) - 1;
+        const openvdb::Coord place = tile & kMost;
         for (int slot = 0; slot < 27; ++slot) {
-            const openvdb::Coord origin =
-                own.offsetBy(8 * (slot / 9 - 1), 8 * (slot / 3 % 3 - 1), 8 * (slot % 3 - 1));
-            const bool inNode = node && (origin & ~(int(ParentT::DIM) - 1)) == node->origin();
-            if (const auto* leaf = inNode ? node->probeConstLeaf(origin) : mAccessor.probeConstLeaf(origin)) {
+            const int dx = slot / 9 - 1, dy = slot / 3 % 3 - 1, dz = slot % 3 - 1;
+            const int x = place.x() + dx, y = place.y() + dy, z = place.z() + dz;
+            const int n = x << 2 * kLog2 | y << kLog2 | z;
+            if (node && ((x | y | z) & ~kMost) == 0) {
+                const auto& entry = node->getTable()[n];
+                leaves[slot] = node->isChildMaskOn(n) ? entry.getChild()->buffer().data()
+                                                      : constantLeaf(slot, entry.getValue());
+                continue;
+            }
+            const openvdb::Coord origin = own.offsetBy(8 * dx, 8 * dy, 8 * dz);
+            if (const auto* leaf = mAccessor.probeConstLeaf(origin)) {
                 leaves[slot] = leaf->buffer().data();
             } else {
                 leaves[slot] = constantLeaf(slot, mAccessor.getValue(origin));

@@ -84,6 +84,16 @@ TEST_CASE("an inside of too many tets is refused before the surface is looked at
     CHECK(refusal(*grid, options).message.empty());
 }
 
+TEST_CASE("a mesh that has too many tets at the surface alone is refused once so many have been seen") {
+    Options options;
+    options.maxTets = 1000;
+    const Refused refused = refusal(*ball(), options);
+    CHECK(contains(refused.message, "more tets than the limit of 1000;"));
+    CHECK(refused.stage == "cuts");
+    options.grade = true; // whose inside tets may be larger ones, and fewer
+    CHECK(refusal(*ball(), options).stage == "numbering");
+}
+
 TEST_CASE("what would take more memory than the limit is refused before the work, with both figures") {
     const Report report = meshOf(*ball()).report;
     CHECK(report.gridMemory == std::int64_t(ball()->memUsage()));
@@ -115,6 +125,6 @@ TEST_CASE("bombs made of constant tiles are refused by the defaults") {
 
 TEST_CASE("bombs whose surface is small enough are refused for their inside by the defaults", "[slow]") {
     const Refused near = refusal(*bomb(1), {});
-    CHECK(contains(near.message, "at least 8"));
-    CHECK(near.stage == "layout");
+    CHECK(contains(near.message, "more tets than"));
+    CHECK(near.stage == "cuts");
 }

@@ -47,6 +47,23 @@ TEST_CASE("transforms that are nearly flat are refused") {
     CHECK(contains(refusal<UnsupportedGrid>(*flat), "singular"));
 }
 
+TEST_CASE("voxels far longer than wide, or than the spacing, are refused") {
+    for (const double length : {1e-200, 1e-105, 1e105, 1e200}) {
+        CAPTURE(length);
+        Options options;
+        options.spacing = length;
+        CHECK(contains(refusal<UnsupportedGrid>(*ball(), options), "times as long as the spacing"));
+    }
+    for (const double length : {1e70, 1e105}) {
+        CAPTURE(length);
+        const auto unlike = ball();
+        const openvdb::math::MapBase::Ptr scale(
+            new openvdb::math::ScaleMap(openvdb::Vec3d(1.0, 1.0, length)));
+        unlike->setTransform(openvdb::math::Transform::Ptr(new openvdb::math::Transform(scale)));
+        CHECK(contains(refusal<UnsupportedGrid>(*unlike), "times as long as the spacing"));
+    }
+}
+
 TEST_CASE("shapes at the ends of 32-bit coordinates are refused") {
     for (int axis = 0; axis < 3; ++axis) {
         for (const int end : {kLast - 20, kFirst + 20}) {

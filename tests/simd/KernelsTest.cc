@@ -4,7 +4,9 @@
 #include "support/Stages.h"
 
 #include "destinations/Destinations.h"
+#include "field/Root.h"
 #include "field/VoxelBlock.h"
+#include "field/VoxelCube.h"
 #include "flips/Slices.h"
 #include "quality/AngleSum.h"
 
@@ -43,7 +45,7 @@ struct BlockResult {
     PaddedEdgeMasks nearer;
     std::vector<float> distances[2];
 
-    BlockResult(const std::vector<float>& values, const Level& level, Isa isa) {
+    BlockResult(const std::vector<float>& values, const Level& level, double tau, Isa isa) {
         std::array<const float*, 27> leaves;
         for (int slot = 0; slot < 27; ++slot) leaves[slot] = values.data() + 512 * slot;
         VoxelBlock block(isa);
@@ -58,7 +60,7 @@ struct BlockResult {
                     edges[d].set(vertex);
             }
         }
-        block.nearerToA(edges, 0.7, nearer);
+        block.nearerToA(edges, tau, nearer);
         std::vector<ShortEdge> nearEdges[2];
         for (int d = 0; d < bcc::kDirections; ++d) {
             const bcc::Step step = bcc::shortEdge(bcc::A, d);
@@ -74,7 +76,7 @@ struct BlockResult {
         }
         for (bcc::Lattice lattice : {bcc::A, bcc::B}) {
             distances[lattice].resize(nearEdges[lattice].size());
-            block.cutPoints(lattice, nearEdges[lattice], 0.7, distances[lattice].data());
+            block.cutPoints(lattice, nearEdges[lattice], tau, distances[lattice].data());
         }
     }
 };
@@ -86,12 +88,13 @@ TEST_CASE("signs and cut points are the same on every instruction set", "[simd]"
     const std::vector<Isa> sets = vectorSets();
     for (const double noise : {1.0, 1e-6, 1e30}) {
         for (const bool below : {false, true}) {
+            const double tau = below ? 0.7 : 0.5;
             const std::vector<float> values = voxels(random, noise);
-            const BlockResult plain(values, Level{0.1 * noise, below}, Isa::Plain);
+            const BlockResult plain(values, Level{0.1 * noise, below}, tau, Isa::Plain);
             REQUIRE(plain.distances[bcc::A].size() > 300);
             REQUIRE(plain.distances[bcc::B].size() > 300);
             for (Isa isa : sets) {
-                const BlockResult other(values, Level{0.1 * noise, below}, isa);
+                const BlockResult other(values, Level{0.1 * noise, below}, tau, isa);
                 REQUIRE(other.a.core() == plain.a.core());
                 REQUIRE(other.b.core() == plain.b.core());
                 for (int d = 0; d < bcc::kDirections; ++d)
@@ -100,6 +103,34 @@ TEST_CASE("signs and cut points are the same on every instruction set", "[simd]"
                     REQUIRE(sameBytes(other.distances[lattice], plain.distances[lattice]));
             }
         }
+    }
+}
+
+TEST_CASE("nearer ends of all edges of a cube are those of each edge", "[simd]") {
+    Random random(3);
+    for (const double tau : {0.5, 0.7}) {
+        int cut = 0;
+        for (int i = 0; i < 2000; ++i) {
+            double block[PaddedMask::step(1, 1, 1) + 1];
+            for (double& value : block) value = random.uniform(-1.0, 1.0);
+            const VoxelCube cube(block);
+            VoxelCube::Corners corners;
+            tau == 0.5 ? cube.nearer<true>(tau, corners) : cube.nearer<false>(tau, corners);
+            for (int corner = 0; corner < 8; ++corner) {
+                double p[8];
+                for (int k = 0; k < 8; ++k) {
+                    const int from = k ^ corner; // which is where the edge starts for 0
+                    p[k] = block[PaddedMask::step(from >> 2, from >> 1 & 1, from & 1)];
+                }
+                const Diagonal phi = Diagonal::of(p);
+                const bool isCut = (phi(0.0) >= 0.0) != (phi(1.0) >= 0.0);
+                const double middle = phi(reachOf(phi(0.0), tau));
+                INFO("corner " << corner << ", " << middle);
+                REQUIRE((corners[corner] != 0) == (isCut && cutInFirstPart(phi(0.0), middle, phi(1.0))));
+                cut += isCut;
+            }
+        }
+        REQUIRE(cut > 3000);
     }
 }
 
