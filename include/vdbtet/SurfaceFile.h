@@ -4,6 +4,7 @@
 
 #include <vdbtet/MeshSink.h>
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -18,8 +19,11 @@ namespace vdbtet {
 /// the format can count.
 class SurfaceFile final : public MeshSink {
 public:
+    /// @param splitsFans  make the surface a manifold where the mesh's is none, as Boundary::Fill and Raw
+    /// may leave it: where the triangles at a point are more than one closed fan, each fan has a point of its
+    /// own. The copies come last. In the order of the triangles all is as without.
     /// @throw BadOption where the extension is of no known format
-    explicit SurfaceFile(const std::string& path);
+    explicit SurfaceFile(const std::string& path, bool splitsFans = false);
     ~SurfaceFile() override;
 
     bool begin(const MeshTotals& totals) override;
@@ -27,6 +31,9 @@ public:
     void end() override;
     bool concurrent() const override { return true; }
     MeshWants wants() const override { return {true, false, false}; }
+
+    /// @return how many points were added to split fans, after end()
+    std::int64_t split() const;
 
 private:
     struct Impl;

@@ -79,6 +79,7 @@ public:
 
     struct Result {
         std::vector<std::uint16_t> codes; ///< sorted
+        std::vector<TileMask> suspects;   ///< by lattice; empty where there are none
         std::int32_t active = 0, extra = 0, lastResort = 0, conflicts = 0;
     };
 
@@ -103,6 +104,9 @@ public:
         flipActive(result);
         std::sort(mCodes.begin(), mCodes.end());
         result.codes.assign(mCodes.begin(), mCodes.end());
+        const auto suspects = findSuspects(mLocal);
+        if (suspects[bcc::A].any() || suspects[bcc::B].any())
+            result.suspects.assign(suspects.begin(), suspects.end());
         return result;
     }
 
@@ -232,7 +236,11 @@ Flips chooseFlips(const Vertices& vertices, int version, Interrupt& interrupt) {
     Flips flips;
     flips.first.reserve(tiles + 1);
     flips.first.push_back(0);
+    flips.suspects.emplace();
     for (const auto& part : parts) {
+        if (!part.suspects.empty())
+            flips.suspects->push_back(
+                {TileRef(&part - parts.data()), {part.suspects[bcc::A], part.suspects[bcc::B]}});
         flips.codes.insert(flips.codes.end(), part.codes.begin(), part.codes.end());
         flips.first.push_back(std::int64_t(flips.codes.size()));
         flips.active += part.active;

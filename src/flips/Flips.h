@@ -6,11 +6,13 @@
 #include "Parallel.h"
 #include "bcc/Lattice.h"
 #include "destinations/LocalVertices.h"
+#include "flips/Suspects.h"
 
 #include <openvdb/Types.h>
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace vdbtet {
@@ -49,6 +51,9 @@ struct Flips {
     std::int64_t conflicts = 0;  ///< octahedra of Algorithm 5 with another manifold vertex
     /// The centres of the first Places::kMost conflicts, in units of the lattice.
     std::vector<openvdb::Vec3d> conflictPlaces;
+
+    /// findSuspects() of all own tiles, where that was done while the states were at hand.
+    std::optional<std::vector<Suspects>> suspects;
 };
 
 /// @brief Choose all flips of versions 1 and 2.

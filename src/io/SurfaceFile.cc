@@ -5,6 +5,7 @@
 #include <vdbtet/Errors.h>
 
 #include "io/OutputFile.h"
+#include "io/SplitFans.h"
 
 #include <tbb/concurrent_vector.h>
 
@@ -138,12 +139,14 @@ Write writerFor(const std::string& path) {
 } // namespace
 
 struct SurfaceFile::Impl {
-    explicit Impl(const std::string& path) : write(writerFor(path)), file(path) {}
+    Impl(const std::string& path, bool splits) : write(writerFor(path)), file(path), splitsFans(splits) {}
 
     Surface collect();
 
     Write write;
     OutputFile file;
+    bool splitsFans;
+    std::int64_t split = 0;
     MeshTotals totals;
     tbb::concurrent_vector<Piece> pieces;
 };
@@ -182,7 +185,8 @@ Surface SurfaceFile::Impl::collect() {
     return surface;
 }
 
-SurfaceFile::SurfaceFile(const std::string& path) : mImpl(std::make_unique<Impl>(path)) {}
+SurfaceFile::SurfaceFile(const std::string& path, bool splitsFans)
+    : mImpl(std::make_unique<Impl>(path, splitsFans)) {}
 
 SurfaceFile::~SurfaceFile() = default;
 
@@ -208,11 +212,14 @@ void SurfaceFile::chunk(const MeshChunk& chunk) {
 }
 
 void SurfaceFile::end() {
-    const Surface surface = mImpl->collect();
+    Surface surface = mImpl->collect();
+    if (mImpl->splitsFans) mImpl->split = splitFans(surface.points, surface.triangles);
     Stream stream(mImpl->file);
     mImpl->write(surface, stream);
     stream.flush();
     mImpl->file.commit();
 }
+
+std::int64_t SurfaceFile::split() const { return mImpl->split; }
 
 } // namespace vdbtet

@@ -23,6 +23,8 @@ constexpr double kLeastGain = 1e-6;
 constexpr double kStep = 0.15;
 constexpr int kHalvings = 3;
 constexpr int kNewtonSteps = 4;
+/// Where a ball stays worse than the guard, it is moved on up to so often.
+constexpr int kMoves = 3;
 /// The normal must not turn away from the gradient farther than by this cosine.
 constexpr double kLeastSlope = 0.2;
 
@@ -82,10 +84,21 @@ bool VertexStep::project(const Vec3d& origin, const Vec3d& normal, Vec3d& place)
 
 VertexStep::Outcome VertexStep::improve(Ball& ball, bool slides, const Vec3d& origin, const Vec3d& home,
                                         Vec3f& offset) {
+    BallQuality quality = ball.judge(home + Vec3d(offset));
+    if (quality.quality() >= mGoals.quality) return Outcome::Fine;
+    for (int moves = 0; moves < kMoves; ++moves) {
+        if (!move(ball, quality, slides, origin, home, offset))
+            return moves == 0 ? Outcome::Stuck : Outcome::Moved;
+        quality = ball.judge(home + Vec3d(offset));
+        if (quality.quality() >= std::min(mGoals.quality, kAcuteGuard)) break;
+    }
+    return Outcome::Moved;
+}
+
+bool VertexStep::move(Ball& ball, const BallQuality& before, bool slides, const Vec3d& origin,
+                      const Vec3d& home, Vec3f& offset) {
     const Vec3d start = home + Vec3d(offset);
-    const BallQuality before = ball.judge(start);
     const double worst = before.quality();
-    if (worst >= mGoals.quality) return Outcome::Fine;
     ball.sort(kMostActive);
     int active = 1;
     while (active < std::min(kMostActive, ball.size()) &&
@@ -97,7 +110,7 @@ VertexStep::Outcome VertexStep::improve(Ball& ball, bool slides, const Vec3d& or
     Vec3d normal(0.0);
     if (slides) {
         const FieldPoint point = mProbe->at(origin + start);
-        if (!point.steep) return Outcome::Stuck;
+        if (!point.steep) return false;
         normal = point.gradient.unit();
         for (int i = 0; i < active; ++i) gradients[i] -= gradients[i].dot(normal) * normal;
     }
@@ -112,11 +125,10 @@ VertexStep::Outcome VertexStep::improve(Ball& ball, bool slides, const Vec3d& or
             const Vec3f rounded(place - home);
             if (!ball.passes(home + Vec3d(rounded), limits)) continue;
             offset = rounded;
-            ball.judge(home + Vec3d(offset));
-            return Outcome::Moved;
+            return true;
         }
     }
-    return Outcome::Stuck;
+    return false;
 }
 
 } // namespace vdbtet

@@ -36,13 +36,20 @@ public:
     /// @param home    of the vertex
     /// @param offset  where it is relative to @a home; receives the better place
     /// @details A place is better if the worst quality in the ball is; no angle of the ball leaves [25, 140]
-    /// degrees, and none that is outside gets any worse. All judged as rounded to float.
+    /// degrees, and none that is outside gets any worse. All judged as rounded to float. Where one is still
+    /// outside the vertex goes on from there, a few times.
     Outcome improve(Ball& ball, bool slides, const openvdb::Vec3d& origin, const openvdb::Vec3d& home,
                     openvdb::Vec3f& offset);
 
 private:
     /// The ways to go, best first.
     class Directions;
+
+    /// @brief Look for a better place, once.
+    /// @param before  the ball, as it was judged where the vertex is
+    /// @return whether @a offset is another one now
+    bool move(Ball& ball, const BallQuality& before, bool slides, const openvdb::Vec3d& origin,
+              const openvdb::Vec3d& home, openvdb::Vec3f& offset);
 
     /// @param normal  along which the point may go, a unit vector
     /// @return whether @a place could be brought onto the zero set.

@@ -50,7 +50,7 @@ class Manual(ToolTest):
     def test_bash_completes_options_values_and_files(self):
         self.assertEqual(self.complete("vdb_tet", "--"), set(all_options()))
         self.assertEqual(self.complete("vdb_tet", "--spac"), {"--spacing"})
-        self.assertEqual(self.complete("vdb_tet", "--boundary", ""), {"manifold", "fill", "raw"})
+        self.assertEqual(self.complete("vdb_tet", "--boundary", ""), {"manifold", "fill", "surface", "raw"})
         self.assertEqual(self.complete("vdb_tet", "--boundary", "f"), {"fill"})
         self.assertEqual(self.complete("vdb_tet", "inf"), {"info"})
         self.assertIn("sphere.vdb", self.complete("vdb_tet", "sphere.v"))

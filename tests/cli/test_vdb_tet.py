@@ -2,6 +2,7 @@
 
 usage: test_vdb_tet.py VDB_TET MAKE_FIXTURES TEST   (TEST without its leading "test_")
 """
+import collections
 import json
 import os
 import re
@@ -18,6 +19,16 @@ from tool import VDB_TET, ToolTest, main, wait_until_writing
 
 def run(*arguments, **options):
     return subprocess.run([VDB_TET, *arguments], capture_output=True, text=True, timeout=240, **options)
+
+
+def is_cycle(steps):
+    """Whether a walk from any key to its value, and so on, comes by all of them."""
+    first = at = next(iter(steps))
+    seen = set()
+    while at in steps and at not in seen:
+        seen.add(at)
+        at = steps[at]
+    return at == first and len(seen) == len(steps)
 
 
 def read_vtu(path):
@@ -214,6 +225,28 @@ class VdbTet(ToolTest):
         self.assert_fails(1, "more than 2 lattice tiles", "sphere.vdb", "o.vtu", "--max-tiles", "2")
         self.assert_fails(2, "limit", "sphere.vdb", "o.vtu", "--max-tiles", "0")
         self.assertEqual(self.created(), ["tets.json"])
+
+    def test_surface_of_its_own_points(self):
+        points = {}
+        for mode in ["fill", "surface"]:
+            self.assert_meshes("lace.vdb", f"{mode}.vtu", "--surface", f"{mode}.obj", "--boundary", mode,
+                               "--report", f"{mode}.json")
+            with open(f"{mode}.json") as report:
+                counts = json.load(report)["boundary"]
+            with open(f"{mode}.obj") as surface:
+                lines = surface.read().splitlines()
+            points[mode] = [line for line in lines if line[0] == "v"]
+            links = collections.defaultdict(dict)
+            for line in lines[len(points[mode]):]:
+                a, b, c = line.split()[1:]
+                links[a][b], links[b][c], links[c][a] = c, a, b
+            self.assertEqual(all(map(is_cycle, links.values())), mode == "surface")
+            self.assertGreater(counts["left"], 0)
+            self.assertEqual(counts["surfaceSplit"], len(points[mode]) - len(points["fill"]))
+        self.assertGreater(counts["surfaceSplit"], 0)
+        with open("fill.vtu", "rb") as fill, open("surface.vtu", "rb") as surface:
+            self.assertEqual(fill.read(), surface.read())
+        self.assert_fails(2, "--surface", "lace.vdb", "o.vtu", "--boundary", "surface")
 
     def test_dry_run(self):
         text = self.assert_meshes("sphere.vdb", "--dry-run", "--report", "dry.json")

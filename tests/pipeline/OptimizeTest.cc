@@ -173,3 +173,13 @@ TEST_CASE("a target that is met already moves nothing", "[optimize]") {
     CHECK(same.report.sweeps == 0);
     requireIdentical(plain.mesh, same.mesh);
 }
+
+TEST_CASE("thin walls come within 25 and 140 degrees in three sweeps", "[optimize]") {
+    // About as thick as a cell: some tets have all four corners on the surface, and these have far to go.
+    Options options = atVoxels(4.0);
+    options.optimize = 30.0;
+    options.sweeps = 3;
+    const Meshed wall = meshOf(*levelSet(gyroidBall({0.1, 0.2, 0.3}, 45, 45, 4.5)), options);
+    CHECK(wall.report.angles.min > 25.0);
+    CHECK(wall.report.angles.max < 140.0);
+}

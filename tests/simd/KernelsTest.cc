@@ -8,6 +8,7 @@
 #include "field/VoxelBlock.h"
 #include "field/VoxelCube.h"
 #include "flips/Slices.h"
+#include "flips/Suspects.h"
 #include "quality/AngleSum.h"
 
 #include <cstring>
@@ -285,6 +286,22 @@ TEST_CASE("slices are chosen the same on every instruction set", "[simd]") {
         chosen += plain.size();
     }
     REQUIRE(chosen > 100);
+}
+
+TEST_CASE("suspects are the same on every instruction set", "[simd]") {
+    const auto grid = levelSet(noiseBall(1, {0.1, 0.2, 0.3}, 12, 1.5));
+    const Stages stages(*grid);
+    const Destinations destinations;
+    const Vertices vertices{stages.layout, stages.cuts.signs, stages.labels, destinations};
+    int found = 0;
+    LocalStates states;
+    for (TileRef t = 0; t < stages.layout.surfaceCount(); ++t) {
+        states.load(vertices, t);
+        const auto plain = findSuspects(states, Isa::Plain);
+        for (const Isa isa : vectorSets()) CHECK((findSuspects(states, isa) == plain));
+        found += plain[bcc::A].count() + plain[bcc::B].count();
+    }
+    CHECK(found > 1000);
 }
 
 } // namespace vdbtet::test

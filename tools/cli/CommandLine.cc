@@ -30,6 +30,7 @@ const std::map<std::string, vdbtet::Inside> kSides = {
 
 const std::map<std::string, vdbtet::Boundary> kBoundaries = {{"manifold", vdbtet::Boundary::Manifold},
                                                              {"fill", vdbtet::Boundary::Fill},
+                                                             {"surface", vdbtet::Boundary::Fill},
                                                              {"raw", vdbtet::Boundary::Raw}};
 
 const std::map<std::string, vdbtet::Nan> kNans = {
@@ -68,6 +69,8 @@ void check(const CommandLine& line, bool ranks) {
     }
     if (!line.fieldsFrom.empty() && line.sample.empty() && line.sampleCells.empty())
         throw UsageError("--fields-from is for --sample and --sample-cells, and neither is given");
+    if (line.splitSurface && line.surface.empty())
+        throw UsageError("--boundary surface is for what --surface writes, and that is not given");
     const bool surfaces = std::any_of(line.inputs.begin(), line.inputs.end(), isSurfaceFile);
     if (line.voxelSize && !surfaces)
         throw UsageError(
@@ -171,11 +174,15 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv, b
         ->type_name("VOXELS")
         ->excludes(spacing);
     app.add_option_function<std::string>(
-           "--boundary", [&options](const std::string& mode) { options.boundary = kBoundaries.at(mode); },
+           "--boundary",
+           [&line](const std::string& mode) {
+               line.options.boundary = kBoundaries.at(mode);
+               line.splitSurface = mode == "surface";
+           },
            "Where the shape is finer than the lattice: mend the boundary until it is a manifold, only fill "
-           "gaps, or leave it. Default: manifold")
+           "gaps, fill gaps and double points in what --surface writes, or leave it. Default: manifold")
         ->check(CLI::IsMember(kBoundaries).description(""))
-        ->type_name("manifold|fill|raw");
+        ->type_name("manifold|fill|surface|raw");
     auto* grade = app.add_flag("-g,--grade", options.grade,
                                "Let the tets grow towards the inside, up to 2 x a layer; the surface stays "
                                "as it is");

@@ -23,6 +23,7 @@ struct CommandLine {
     std::string format; ///< of OUT; empty: by its extension
     vdbtet::FormatOptions formatOptions;
     std::string surface;                  ///< where to write the boundary; empty: nowhere
+    bool splitSurface = false;            ///< so that each fan of its triangles has its own points
     std::string name;                     ///< of the grid; empty: the only one
     std::optional<double> voxelSize;      ///< for surfaces; default: by their size
     std::vector<std::string> sample;      ///< grids whose values the points carry; "all" for all others

@@ -64,7 +64,10 @@ std::string asText(const CommandLine& line, const Summary& summary) {
         add("boundary",
             fmt::format("not a surface at {} vertices: {} tets filled, {} taken out, {} points doubled{}",
                         r.boundary.found, r.boundary.filled, r.boundary.peeled, r.boundary.split,
-                        r.boundary.left > 0 ? fmt::format("; {} left", r.boundary.left) : ""));
+                        r.boundary.left > 0 ? fmt::format("; {} left", r.boundary.left) : "") +
+                (line.splitSurface && !line.dryRun
+                     ? fmt::format(", {} points doubled in {}", summary.surfaceSplit, line.surface)
+                     : ""));
     }
     if (r.tiger == 3) {
         add("flips", fmt::format("{} active, {} for quality", r.activeFlips, r.qualityFlips));
@@ -118,7 +121,8 @@ std::string asJson(const CommandLine& line, const Summary& summary) {
           {"filled", r.boundary.filled},
           {"peeled", r.boundary.peeled},
           {"split", r.boundary.split},
-          {"left", r.boundary.left}}},
+          {"left", r.boundary.left},
+          {"surfaceSplit", summary.surfaceSplit}}},
         {"ambiguous", r.ambiguous},
         {"conflicts", r.conflicts},
         {"activeFlips", r.activeFlips},

@@ -15,8 +15,9 @@ struct Summary {
     std::string gridType;  ///< such as "float, level set"
     std::string surface;   ///< what it was made from, or empty
     std::vector<std::string> warnings;
-    double seconds = 0.0;    ///< reading and meshing
-    std::uint64_t bytes = 0; ///< size of the mesh file, also of the one a dry run does not write
+    double seconds = 0.0;          ///< reading and meshing
+    std::uint64_t bytes = 0;       ///< size of the mesh file, also of the one a dry run does not write
+    std::int64_t surfaceSplit = 0; ///< points that were doubled in the surface file alone
 };
 
 /// Such as "1.5 MB".

@@ -44,7 +44,8 @@ struct Output final : vdbtet::MeshSink {
         if (path.empty()) path = "mesh.vtu"; // of what size would it be?
         if (line.dryRun) return;
         file = std::make_unique<vdbtet::MeshFile>(path, format, options);
-        if (!line.surface.empty()) surface = std::make_unique<vdbtet::SurfaceFile>(line.surface);
+        if (!line.surface.empty())
+            surface = std::make_unique<vdbtet::SurfaceFile>(line.surface, line.splitSurface);
     }
 
     bool begin(const vdbtet::MeshTotals& totals) override {
@@ -181,6 +182,7 @@ void mesh(const CommandLine& line, const Channel& channel) {
     stages.insert(stages.begin(), {"read", readSeconds});
     summary.gridType = grid->valueType() + ", " + openvdb::GridBase::gridClassToString(grid->getGridClass());
     summary.bytes = output.bytes;
+    if (output.surface) summary.surfaceSplit = output.surface->split();
 
     if (reportFile && isReportPage(line.report)) {
         reporter.start("report");

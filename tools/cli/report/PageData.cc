@@ -31,7 +31,9 @@ Rows optionRows(const CommandLine& line, const vdbtet::Report& report) {
         {"rule", report.insideRule},
         {"TIGER", fmt::format("version {}", report.tiger)}};
     const std::array<const char*, 3> boundaries = {"manifold", "fill", "raw"};
-    rows.push_back({"boundary", boundaries.at(static_cast<std::size_t>(options.boundary))});
+    rows.push_back({"boundary", line.splitSurface
+                                    ? "surface"
+                                    : boundaries.at(static_cast<std::size_t>(options.boundary))});
     rows.push_back({"graded inside", options.grade ? "yes" : "no"});
     if (options.maxSize) rows.push_back({"longest edge", fmt::format("{:g}", *options.maxSize)});
     rows.push_back({"optimised", options.optimize ? fmt::format("to {:g}°, in at most {} sweeps",
