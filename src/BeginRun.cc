@@ -35,6 +35,9 @@ void checkOptions(const Options& options) {
         throw BadOption("the limit on memory must be a positive number of bytes");
 }
 
+/// How far points may be off the surface after optimisation, in voxels: half of what is promised.
+constexpr double kOffSurface = 0.5e-3;
+
 } // namespace
 
 Frame beginRun(const openvdb::GridBase& grid, const Options& options, Report& report) {
@@ -49,6 +52,10 @@ Frame beginRun(const openvdb::GridBase& grid, const Options& options, Report& re
                         "tets at the surface");
     }
     return frame;
+}
+
+OptimizeOptions optimizeGoals(const Options& options, const Report& report) {
+    return {*options.optimize, options.sweeps, kOffSurface * report.voxelSize / report.spacing};
 }
 
 } // namespace vdbtet

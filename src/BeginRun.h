@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bcc/Frame.h"
+#include "optimize/Optimize.h"
 
 #include <vdbtet/VolumeToTets.h>
 
@@ -23,5 +24,9 @@ inline std::optional<double> mostCells(const Options& options, const Frame& fram
     if (!options.maxSize) return std::nullopt;
     return *options.maxSize / frame.spacing;
 }
+
+/// @return what optimisation is to reach.
+/// @pre Options::optimize is set
+OptimizeOptions optimizeGoals(const Options& options, const Report& report);
 
 } // namespace vdbtet

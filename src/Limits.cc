@@ -38,10 +38,11 @@ std::int64_t estimateMemory(std::int64_t surfaceTiles, const Options& options) {
     return kAnyRun + surfaceTiles * tile;
 }
 
-void requireMemory(std::int64_t bytes, const Options& options) {
+void requireMemory(std::int64_t bytes, const Options& options, const char* what) {
     if (!options.maxMemory || bytes <= *options.maxMemory) return;
-    throw TooLarge("meshing it would take about " + gigabytes(bytes) + " of memory, more than the limit of " +
-                   gigabytes(*options.maxMemory) + "; use a coarser spacing, or raise the limit");
+    throw TooLarge(std::string(what) + " would take about " + gigabytes(bytes) +
+                   " of memory, more than the limit of " + gigabytes(*options.maxMemory) +
+                   "; use a coarser spacing, or raise the limit");
 }
 
 std::int64_t mostInsideTets(const Options& options) {

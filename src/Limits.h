@@ -13,8 +13,9 @@ namespace vdbtet {
 /// @return an estimate of the mesher's peak, bytes: without the grid, and without what the sink keeps
 std::int64_t estimateMemory(std::int64_t surfaceTiles, const Options& options);
 
-/// @throw TooLarge where that, and the grid, are more than Options::maxMemory
-void requireMemory(std::int64_t bytes, const Options& options);
+/// @param what  is to be done with that, and the grid
+/// @throw TooLarge where they are more than Options::maxMemory
+void requireMemory(std::int64_t bytes, const Options& options, const char* what = "meshing it");
 
 /// @return how many inside tets of the uniform mesh are too many, as far as the mesh will have them
 std::int64_t mostInsideTets(const Options& options);

@@ -20,9 +20,6 @@
 
 #include <vdbtet/Errors.h>
 
-#include <algorithm>
-#include <cmath>
-
 namespace vdbtet {
 
 namespace {
@@ -32,9 +29,6 @@ std::vector<openvdb::Vec3d> inWorld(const Frame& frame, std::vector<openvdb::Vec
     for (openvdb::Vec3d& place : places) place = frame.world(place);
     return places;
 }
-
-/// How far points may be off the surface after optimisation, in voxels: half of what is promised.
-constexpr double kOffSurface = 0.5e-3;
 
 /// All stages.
 /// @param margin  of Field::surfaceTiles()
@@ -108,13 +102,9 @@ bool mesh(const Field& field, const Frame& frame, const Options& options, int ma
     Optimized optimized;
     if (options.optimize) {
         optimized = stage("optimize", [&] {
-            const OptimizeOptions goals{*options.optimize, options.sweeps,
-                                        kOffSurface * report.voxelSize / report.spacing};
-            return optimize(field, vertices, flips, goals, interrupt);
+            return optimize(field, vertices, flips, optimizeGoals(options, report), interrupt);
         });
         if (report.cancelled) return true;
-        report.verticesMoved = optimized.verticesMoved;
-        report.sweeps = optimized.sweeps;
         vertices.moves = &optimized.moves;
     }
     // Around vertices that have moved, or that repair has brought to the boundary, graded meshes are uniform.
@@ -139,11 +129,7 @@ bool mesh(const Field& field, const Frame& frame, const Options& options, int ma
                    : measureMesh(vertices, flips, grading, numbering, frame, interrupt);
     });
     if (report.cancelled) return true;
-    tellAngles(angles, report);
-    if (options.optimize) {
-        // What was not measured before are tets of the lattice.
-        report.anglesBefore = {std::min(optimized.before.min, 60.0), std::max(optimized.before.max, 90.0)};
-    }
+    tellAngles(angles, options.optimize ? &optimized : nullptr, report);
     stage("end", [&] {
         sink.end();
         return 0;

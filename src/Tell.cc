@@ -61,11 +61,16 @@ void tellNumbers(const Numbering& numbering, const Options& options, bool passed
     report.angleMax = proven.max;
 }
 
-void tellAngles(AngleSum& angles, Report& report) {
+void tellAngles(AngleSum& angles, const Optimized* optimized, Report& report) {
     report.angles = angles.stats();
     report.percentiles = angles.percentiles();
     report.angleBins = angles.bins();
     report.anglesBefore = {report.angles.min, report.angles.max};
+    if (!optimized) return;
+    // What was not measured before are tets of the lattice.
+    report.anglesBefore = {std::min(optimized->before.min, 60.0), std::max(optimized->before.max, 90.0)};
+    report.verticesMoved = optimized->verticesMoved;
+    report.sweeps = optimized->sweeps;
 }
 
 MeshTotals totalsOf(const Numbering& numbering, const Frame& frame) {

@@ -6,6 +6,7 @@
 #include "flips/Flips.h"
 #include "labels/Labels.h"
 #include "numbering/Numbering.h"
+#include "optimize/Optimize.h"
 #include "quality/AngleSum.h"
 
 #include <vdbtet/MeshSink.h>
@@ -22,7 +23,8 @@ void tellLabels(const Labels& labels, const Flips& flips, Report& report);
 /// @throw TooLarge for more tets than Options::maxTets
 void tellNumbers(const Numbering& numbering, const Options& options, bool passed, Report& report);
 
-void tellAngles(AngleSum& angles, Report& report);
+/// @param optimized  null where it was not asked for
+void tellAngles(AngleSum& angles, const Optimized* optimized, Report& report);
 
 /// @throw TooLarge where double cannot resolve the lattice
 MeshTotals totalsOf(const Numbering& numbering, const Frame& frame);

@@ -39,9 +39,11 @@ std::vector<std::string> scalarGrids(const std::string& path);
 
 /// @brief Read the grids of a .vdb file whose values a mesh shall carry.
 /// @param names  as above; or empty for all that FieldSampler can sample but the grid named @a except
+/// @param delayLoad  as above: only what is sampled is read
 /// @throw FileError as above
-std::vector<openvdb::GridBase::ConstPtr>
-readFields(const std::string& path, const std::vector<std::string>& names, const std::string& except = {});
+std::vector<openvdb::GridBase::ConstPtr> readFields(const std::string& path,
+                                                    const std::vector<std::string>& names,
+                                                    const std::string& except = {}, bool delayLoad = false);
 
 /// @brief Read what a .vdb file says of itself, such as who made it.
 /// @throw FileError as above

@@ -131,6 +131,21 @@ std::int64_t Destinations::number(const VertexMasks& manifold) {
     return sum;
 }
 
+void Destinations::exchange(const Seams& seams) {
+    // The moves of a tile lie side by side, of one lattice, then of the other.
+    const auto forEach = [&](TileRef t, const auto& visit) {
+        const std::int64_t begin = first[t][bcc::A], end = first[t + 1][bcc::A];
+        forEachArray([&](auto& array) { visit(array.data() + begin, std::size_t(end - begin)); });
+    };
+    seams.exchange(
+        [&](TileRef t, Bytes& bytes) {
+            forEach(t, [&](const auto* moves, std::size_t count) { pack(bytes, moves, count); });
+        },
+        [&](TileRef t, Unpacker& next) {
+            forEach(t, [&](auto* moves, std::size_t count) { next(moves, count); });
+        });
+}
+
 Destinations findDestinations(const Field& field, const Layout& layout, const Arrows& arrows,
                               const Labels& labels, Interrupt& interrupt) {
     Destinations destinations;
@@ -169,7 +184,7 @@ Destinations findGradientDestinations(const Field& field, const Layout& layout, 
     Destinations destinations;
     destinations.offsets.resize(destinations.number(labels.manifold));
     if (before) {
-        std::vector<bool> isRedone(layout.surfaceTiles.size());
+        std::vector<bool> isRedone(layout.ownCount());
         for (const TileRef t : *redo) isRedone[t] = true;
         for (std::size_t t = 0; t < isRedone.size(); ++t) {
             if (isRedone[t]) continue;

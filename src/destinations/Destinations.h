@@ -6,6 +6,7 @@
 #include "cuts/Arrows.h"
 #include "labels/Labels.h"
 #include "tiles/Layout.h"
+#include "tiles/Seams.h"
 
 #include <openvdb/Types.h>
 
@@ -31,6 +32,17 @@ struct Destinations {
     /// @return how many there are
     std::int64_t number(const VertexMasks& manifold);
 
+    /// Call @a visit for each array that has an entry a move.
+    template <typename Visit>
+    void forEachArray(Visit&& visit) {
+        if (!offsets.empty()) return visit(offsets);
+        visit(distances);
+        visit(directions);
+    }
+
+    /// Get the moves of borrowed tiles, whose labels are known.
+    void exchange(const Seams& seams);
+
     /// @return whether a surface tile has any manifold vertex.
     bool any(TileRef tile) const { return first[tile][bcc::A] != first[tile + 1][bcc::A]; }
 
@@ -53,8 +65,8 @@ Destinations findDestinations(const Field& field, const Layout& layout, const Ar
 /// Field::Sampler::alongGradient(), but not farther than its cut point of above is away. Where the surface is
 /// not met by then, and if it is flagged, it moves to that.
 /// @param threshold  as for the arrows
-/// @param redo       the surface tiles to find destinations of, ascending; null for all
-/// @param before     those of all other tiles, whose labels are the same now; null with @a redo
+/// @param redo       the own tiles to find destinations of, ascending; null for all
+/// @param before     those of all other own tiles, whose labels are the same now; null with @a redo
 Destinations findGradientDestinations(const Field& field, const Layout& layout, const Arrows& arrows,
                                       const Labels& labels, const Threshold& threshold,
                                       const std::vector<TileRef>* redo, const Destinations* before,

@@ -28,9 +28,9 @@ const TileMask& borderOf(int slot) {
 }
 
 std::vector<TileRef> tilesNear(const Layout& layout, const VertexMasks& vertices, Interrupt& interrupt) {
-    const std::int64_t count = layout.surfaceCount();
-    std::vector<char> any(count), near(count);
-    parallelRanges(count, interrupt, [&](std::int64_t begin, std::int64_t end) {
+    const std::int64_t all = layout.surfaceCount(), count = layout.ownCount();
+    std::vector<char> any(all), near(count);
+    parallelRanges(all, interrupt, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t t = begin; t < end; ++t) any[t] = vertices[t][0].any() || vertices[t][1].any();
     });
     parallelRanges(count, interrupt, [&](std::int64_t begin, std::int64_t end) {

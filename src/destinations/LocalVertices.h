@@ -110,7 +110,7 @@ private:
 /// The part of the neighbour at neighbourSlot() @a slot, by its own bits, that is in a tile's border.
 const TileMask& borderOf(int slot);
 
-/// @return the surface tiles that have any of some vertices, or have them in their border; ascending.
+/// @return the own surface tiles that have any of some vertices, or have them in their border; ascending.
 std::vector<TileRef> tilesNear(const Layout& layout, const VertexMasks& vertices, Interrupt& interrupt);
 
 /// The place of a vertex in the lattice, relative to L_A's lowest vertex of the tile.

@@ -33,43 +33,41 @@ inline ValueRange requireFinite(const ValueScan& scan, double background, const 
     throw BadValue(message.str());
 }
 
-/// @brief Looks at all values; so what reads the grid afterwards need not think of NaN.
-/// @details Values that are replaced are in a copy of the whole tree, so that they are the same for signs,
-/// cut points, gradients and fields, and readers of good grids pay nothing.
+/// @brief What the values of a grid that have no sign are taken for.
+/// @details The same for signs, cut points, gradients and fields: they are replaced in the tree.
 template <typename GridT>
-class FiniteGrid {
+class Replacement {
 public:
-    /// @param grid  must outlive this
-    /// @param interrupt  after a stop this is useless
+    /// @param scan  of all values of the grid
     /// @throw BadValue where a value is NaN or infinite, and @a nan is Nan::Error
-    FiniteGrid(const GridT& grid, const Level& level, Nan nan, Interrupt& interrupt) : mOriginal(grid) {
-        const ValueScan scan = scanValues(grid, interrupt, [](const auto&) { return true; });
-        if (interrupt.stopped()) return;
+    Replacement(const ValueScan& scan, const GridT& grid, const Level& level, Nan nan) {
         const double background = grid.background();
         const bool badBackground = !std::isfinite(background);
-        mReplaced = scan.bad + (badBackground ? 1 : 0);
-        if (mReplaced == 0 || nan == Nan::Error) {
+        mCount = scan.bad + (badBackground ? 1 : 0);
+        if (mCount == 0 || nan == Nan::Error) {
             mValues = requireFinite(scan, background, grid);
             return;
         }
-        mValues = {scan.min, scan.max};
         const double depth = badBackground ? depthOf(scan, level) : -level.phi(background);
         const ValueT outside = valueAt(level, -depth), inside = valueAt(level, depth);
-        mCopy = grid.deepCopy();
-        if (badBackground) mCopy->tree().root().setBackground(outside, /*updateChildNodes=*/false);
-        const Replace replace{nan == Nan::Inside ? inside : outside};
-        openvdb::tree::NodeManager<typename GridT::TreeType>(mCopy->tree()).foreachTopDown(replace);
-        widen(replace.with);
-        widen(mCopy->background());
+        mBackground = badBackground ? outside : grid.background();
+        mWith = nan == Nan::Inside ? inside : outside;
+        mValues = {scan.min, scan.max};
+        for (const double value : {mWith, mBackground})
+            mValues = {std::min(mValues.min, value), std::max(mValues.max, value)};
     }
 
-    const GridT& grid() const { return mCopy ? *mCopy : mOriginal; }
-    /// Of the leaves, the tiles and the background, active or not.
+    /// How many values are replaced.
+    std::int64_t count() const { return mCount; }
+    /// Of the leaves, the tiles and the background, active or not, after that.
     const ValueRange& values() const { return mValues; }
-    std::int64_t replaced() const { return mReplaced; }
-    /// Of the grid, and of the copy if there is one, bytes.
-    std::int64_t memory() const {
-        return std::int64_t(mOriginal.memUsage()) + (mCopy ? std::int64_t(mCopy->memUsage()) : 0);
+
+    /// @param grid  the one that was scanned, or a part or a copy of it
+    void apply(GridT& grid) const {
+        if (mCount == 0) return;
+        grid.tree().root().setBackground(mBackground, /*updateChildNodes=*/false);
+        const Replace replace{mWith};
+        openvdb::tree::NodeManager<typename GridT::TreeType>(grid.tree()).foreachTopDown(replace);
     }
 
 private:
@@ -85,8 +83,6 @@ private:
             }
         }
     };
-
-    void widen(double value) { mValues = {std::min(mValues.min, value), std::max(mValues.max, value)}; }
 
     /// How far the good values go on either side of the isovalue.
     static double depthOf(const ValueScan& scan, const Level& level) {
@@ -107,6 +103,40 @@ private:
         return value;
     }
 
+    std::int64_t mCount = 0;
+    ValueRange mValues{};
+    ValueT mWith{}, mBackground{};
+};
+
+/// @brief Looks at all values; so what reads the grid afterwards need not think of NaN.
+/// @details Values that are replaced are in a copy of the whole tree, so readers of good grids pay nothing.
+template <typename GridT>
+class FiniteGrid {
+public:
+    /// @param grid  must outlive this
+    /// @param interrupt  after a stop this is useless
+    /// @throw BadValue where a value is NaN or infinite, and @a nan is Nan::Error
+    FiniteGrid(const GridT& grid, const Level& level, Nan nan, Interrupt& interrupt) : mOriginal(grid) {
+        const ValueScan scan = scanValues(grid, interrupt, [](const auto&) { return true; });
+        if (interrupt.stopped()) return;
+        const Replacement<GridT> replacement(scan, grid, level, nan);
+        mReplaced = replacement.count();
+        mValues = replacement.values();
+        if (mReplaced == 0) return;
+        mCopy = grid.deepCopy();
+        replacement.apply(*mCopy);
+    }
+
+    const GridT& grid() const { return mCopy ? *mCopy : mOriginal; }
+    /// Of the leaves, the tiles and the background, active or not.
+    const ValueRange& values() const { return mValues; }
+    std::int64_t replaced() const { return mReplaced; }
+    /// Of the grid, and of the copy if there is one, bytes.
+    std::int64_t memory() const {
+        return std::int64_t(mOriginal.memUsage()) + (mCopy ? std::int64_t(mCopy->memUsage()) : 0);
+    }
+
+private:
     const GridT& mOriginal;
     typename GridT::Ptr mCopy; ///< or null
     ValueRange mValues{};

@@ -246,10 +246,12 @@ private:
 /// @brief Call @a visit(block, mixed) for each block with cubes of mixed signs, some more than once, in any
 /// order.
 /// @param visitors  gives each thread its own
-template <typename TreeT, typename Visitors>
+/// @param takes     takes(blocks): whether to look at any block in a box
+template <typename TreeT, typename Visitors, typename Takes>
 void forEachSurfaceBlock(const TreeT& tree, const Level& level, std::int64_t maxTiles, Interrupt& interrupt,
-                         Visitors& visitors) {
+                         Visitors& visitors, const Takes& takes) {
     const auto visit = [&](BlockSigns<TreeT>& signs, const openvdb::Coord& block) {
+        if (!takes(openvdb::CoordBBox(block, block))) return;
         const TileMask mixed = signs.mixedCubes(block);
         if (mixed.any()) visitors.local()(block, mixed);
     };
@@ -279,10 +281,15 @@ void forEachSurfaceBlock(const TreeT& tree, const Level& level, std::int64_t max
     // The constant tiles, those of leaf size by their parent nodes: there may be as many as voxels inside /
     // 512.
     const TreeNodes<TreeT> nodes(tree);
+    const auto takesAround = [&](const openvdb::Coord& origin, int size) {
+        const openvdb::Coord low = origin >> 3;
+        return takes(openvdb::CoordBBox(low.offsetBy(-1), low.offsetBy(size / 8)));
+    };
     const auto addFaces = [&](ConstantFaces<TreeT>& faces, const auto& node, int size) {
         forEachTile(node, [&](double value, openvdb::Index slot) {
-            if (level.phi(value) >= 0.0)
-                faces.visit(openvdb::CoordBBox::createCube(node.offsetToGlobalCoord(slot), size));
+            if (!(level.phi(value) >= 0.0)) return;
+            const openvdb::Coord origin = node.offsetToGlobalCoord(slot);
+            if (takesAround(origin, size)) faces.visit(openvdb::CoordBBox::createCube(origin, size));
         });
     };
     const auto visitBlocks = [&](const Coords& blocks, std::int64_t begin, std::int64_t end) {

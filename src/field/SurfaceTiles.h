@@ -139,7 +139,8 @@ template <typename TreeT>
 Coords tilesNearSurface(const TreeT& tree, const Frame& frame, const Level& level, std::int64_t maxTiles,
                         int margin, Interrupt& interrupt) {
     tbb::enumerable_thread_specific<NearTiles> parts(frame, maxTiles, margin);
-    forEachSurfaceBlock(tree, level, maxTiles, interrupt, parts);
+    forEachSurfaceBlock(tree, level, maxTiles, interrupt, parts,
+                        [](const openvdb::CoordBBox&) { return true; });
     Coords tiles;
     for (const NearTiles& part : parts) tiles.insert(tiles.end(), part.tiles().begin(), part.tiles().end());
     tbb::parallel_sort(tiles.begin(), tiles.end());

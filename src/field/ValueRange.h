@@ -77,16 +77,22 @@ struct ValueScan {
         if (widenIfFinite(voxels, min, max)) return;
         for (int n = 0; n < TileMask::kSize; ++n) add(voxels[n], [&] { return leaf.offsetToGlobalCoord(n); });
     }
-    template <typename NodeT>
-    void addTiles(const NodeT& node) {
+    /// @param takes  see scanValues()
+    template <typename NodeT, typename Takes>
+    void addTiles(const NodeT& node, const Takes& takes) {
         forEachTile(node, [&](double value, openvdb::Index slot) {
-            add(value, [&] { return node.offsetToGlobalCoord(slot); });
+            addTile(
+                value, [&] { return node.offsetToGlobalCoord(slot); }, takes);
         });
+    }
+    template <typename Place, typename Takes>
+    void addTile(double value, const Place& place, const Takes& takes) {
+        if (std::isfinite(value) || takes(place())) add(value, place);
     }
 };
 
-/// @return what the tiles have, and the leaves that @a takes(leaf), active or not; the background is not
-/// among it.
+/// @return what the tiles and leaves have, active or not; the background is not among it.
+/// @param takes  takes(origin) for a leaf, or a tile without a sign: whether to look at it
 template <typename GridT, typename Takes>
 ValueScan scanValues(const GridT& grid, Interrupt& interrupt, const Takes& takes) {
     using TreeT = typename GridT::TreeType;
@@ -96,18 +102,19 @@ ValueScan scanValues(const GridT& grid, Interrupt& interrupt, const Takes& takes
     parallelRanges(std::int64_t(leaves.leafCount()), interrupt, [&](std::int64_t begin, std::int64_t end) {
         ValueScan& scan = scans.local();
         for (std::int64_t l = begin; l < end; ++l) {
-            if (takes(leaves.leaf(std::size_t(l)))) scan.addLeaf(leaves.leaf(std::size_t(l)));
+            if (takes(leaves.leaf(std::size_t(l)).origin())) scan.addLeaf(leaves.leaf(std::size_t(l)));
         }
     });
     const TreeNodes<TreeT> nodes(grid.tree());
     parallelEach(std::int64_t(nodes.lower.size()), interrupt,
-                 [&](std::int64_t n) { scans.local().addTiles(*nodes.lower[n]); });
+                 [&](std::int64_t n) { scans.local().addTiles(*nodes.lower[n], takes); });
     parallelEach(std::int64_t(nodes.upper.size()), interrupt,
-                 [&](std::int64_t n) { scans.local().addTiles(*nodes.upper[n]); });
+                 [&](std::int64_t n) { scans.local().addTiles(*nodes.upper[n], takes); });
     ValueScan scan;
     for (const ValueScan& part : scans) scan.add(part);
     for (auto tile = grid.tree().root().cbeginValueAll(); tile; ++tile)
-        scan.add(*tile, [&] { return tile.getCoord(); });
+        scan.addTile(
+            *tile, [&] { return tile.getCoord(); }, takes);
     return scan;
 }
 

@@ -155,52 +155,72 @@ void markDifference(const std::vector<Item>& before, const std::vector<Item>& no
     }
 }
 
+/// Put a list in another one's place, in as little memory.
+template <typename Item>
+void replace(std::vector<Item>& list, const std::vector<Item>& now, std::array<TileMask, 2>& changed) {
+    markDifference(list, now, changed);
+    list.assign(now.begin(), now.end());
+}
+
 } // namespace
 
 QualityFlips::QualityFlips(const Vertices& vertices)
     : mVertices(vertices), mTiles(vertices.layout.surfaceTiles.size()) {}
 
-void QualityFlips::choose(const std::vector<TileRef>& tiles, VertexMasks& changed, Interrupt& interrupt) {
+void QualityFlips::choose(const std::vector<TileRef>& tiles, VertexMasks& changed, Interrupt& interrupt,
+                          const Seams& seams) {
     VertexMasks turned(mTiles.size());
     tbb::enumerable_thread_specific<CandidateFinder> finders([&] { return CandidateFinder(mVertices); });
-    parallelRanges(std::int64_t(tiles.size()), interrupt, [&](std::int64_t begin, std::int64_t end) {
-        CandidateFinder& finder = finders.local();
-        std::vector<std::uint16_t> active;
-        std::vector<FlipCandidate> candidates;
-        for (std::int64_t i = begin; i < end; ++i) {
-            OfTile& tile = mTiles[tiles[i]];
-            finder.find(tiles[i], active, candidates);
-            markDifference(tile.active, active, changed[tiles[i]]);
-            markDifference(tile.candidates, candidates, turned[tiles[i]]);
-            tile.active.assign(active.begin(), active.end());
-            tile.candidates.assign(candidates.begin(), candidates.end());
-        }
+    seams.together([&] {
+        parallelRanges(std::int64_t(tiles.size()), interrupt, [&](std::int64_t begin, std::int64_t end) {
+            CandidateFinder& finder = finders.local();
+            std::vector<std::uint16_t> active;
+            std::vector<FlipCandidate> candidates;
+            for (std::int64_t i = begin; i < end; ++i) {
+                finder.find(tiles[i], active, candidates);
+                replace(mTiles[tiles[i]].active, active, changed[tiles[i]]);
+                replace(mTiles[tiles[i]].candidates, candidates, turned[tiles[i]]);
+            }
+        });
     });
     if (interrupt.stopped()) return;
-    const std::vector<TileRef> near = tilesNear(mVertices.layout, turned, interrupt);
-    parallelRanges(std::int64_t(near.size()), interrupt, [&](std::int64_t begin, std::int64_t end) {
-        std::vector<std::uint16_t> chosen;
-        for (std::int64_t i = begin; i < end; ++i) {
-            OfTile& tile = mTiles[near[i]];
-            chosen.clear();
-            for (const FlipCandidate& c : tile.candidates) {
-                if (!wins(near[i], c)) continue;
-                const int kind = c.spine >> 9;
-                chosen.push_back(
-                    Flips::encode({bcc::Lattice(kind / 3), kind % 3, bcc::Slice(c.slice), c.spine & 511}));
+    seams.exchange(
+        [&](TileRef t, Bytes& bytes) {
+            packList(bytes, mTiles[t].active);
+            packList(bytes, mTiles[t].candidates);
+        },
+        [&](TileRef t, Unpacker& next) {
+            replace(mTiles[t].active, next.nextList<std::uint16_t>(), changed[t]);
+            replace(mTiles[t].candidates, next.nextList<FlipCandidate>(), turned[t]);
+        });
+    seams.together([&] {
+        const std::vector<TileRef> near = tilesNear(mVertices.layout, turned, interrupt);
+        parallelRanges(std::int64_t(near.size()), interrupt, [&](std::int64_t begin, std::int64_t end) {
+            std::vector<std::uint16_t> chosen;
+            for (std::int64_t i = begin; i < end; ++i) {
+                chosen.clear();
+                for (const FlipCandidate& c : mTiles[near[i]].candidates) {
+                    if (!wins(near[i], c)) continue;
+                    const int kind = c.spine >> 9;
+                    chosen.push_back(Flips::encode(
+                        {bcc::Lattice(kind / 3), kind % 3, bcc::Slice(c.slice), c.spine & 511}));
+                }
+                std::sort(chosen.begin(), chosen.end());
+                replace(mTiles[near[i]].chosen, chosen, changed[near[i]]);
             }
-            std::sort(chosen.begin(), chosen.end());
-            markDifference(tile.chosen, chosen, changed[near[i]]);
-            tile.chosen.assign(chosen.begin(), chosen.end());
-        }
+        });
     });
+    seams.exchange([&](TileRef t, Bytes& bytes) { packList(bytes, mTiles[t].chosen); },
+                   [&](TileRef t, Unpacker& next) {
+                       replace(mTiles[t].chosen, next.nextList<std::uint16_t>(), changed[t]);
+                   });
 }
 
-void QualityFlips::chooseAll(Interrupt& interrupt) {
-    std::vector<TileRef> tiles(mTiles.size());
+void QualityFlips::chooseAll(Interrupt& interrupt, const Seams& seams) {
+    std::vector<TileRef> tiles(std::size_t(mVertices.layout.ownCount()));
     std::iota(tiles.begin(), tiles.end(), 0);
     VertexMasks changed(mTiles.size());
-    choose(tiles, changed, interrupt);
+    choose(tiles, changed, interrupt, seams);
 }
 
 bool QualityFlips::wins(TileRef tile, const FlipCandidate& candidate) const {
@@ -240,6 +260,7 @@ Flips QualityFlips::flips() const {
         std::merge(tile.active.begin(), tile.active.end(), tile.chosen.begin(), tile.chosen.end(),
                    std::back_inserter(flips.codes));
         flips.first.push_back(std::int64_t(flips.codes.size()));
+        if (std::int64_t(flips.first.size()) - 1 > mVertices.layout.ownCount()) continue;
         flips.active += std::int64_t(tile.active.size());
         flips.quality += std::int64_t(tile.chosen.size());
     }

@@ -35,12 +35,14 @@ public:
     explicit QualityFlips(const Vertices& vertices);
 
     /// @brief Choose the flips of some tiles, after which all are as they would be had all been chosen anew.
-    /// @param tiles    ascending; the octahedra of all others have the vertices they had before
+    /// @param tiles    own ones, ascending; the octahedra of all others have the vertices they had before
     /// @param changed  receives the lower ends of all spines that are flipped now or were, and not alike
-    void choose(const std::vector<TileRef>& tiles, VertexMasks& changed, Interrupt& interrupt);
+    void choose(const std::vector<TileRef>& tiles, VertexMasks& changed, Interrupt& interrupt,
+                const Seams& seams = Seams());
 
-    void chooseAll(Interrupt& interrupt);
+    void chooseAll(Interrupt& interrupt, const Seams& seams = Seams());
 
+    /// Those of borrowed tiles, too; the counts are of own ones.
     Flips flips() const;
 
     /// Of a surface tile, ascending; of interest to tests.

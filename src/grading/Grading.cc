@@ -228,12 +228,13 @@ std::vector<FinestOctants> findFinest(const Layout& layout, const VertexMasks& m
     return finest;
 }
 
-Grading gradeTiles(const Layout& layout, const std::vector<bool>& lowest,
-                   const std::vector<FinestOctants>& finest, int top, Interrupt& interrupt) {
+Grading gradeTiles(const Layout& layout, const std::vector<bool>& lowest, std::vector<FinestOctants> finest,
+                   int top, Interrupt& interrupt) {
     Grading grading;
     grading.top = top;
     Units units;
     for (const FinestOctants& octants : finest) units.append(octants.tile, octants.cells);
+    std::vector<FinestOctants>().swap(finest);
     TierMaker maker(layout, lowest, std::move(units), interrupt);
     const int last = (top - 1) / 3;
     for (int tier = 0; tier <= last && !interrupt.stopped(); ++tier)

@@ -92,10 +92,10 @@ std::vector<FinestOctants> findFinest(const Layout& layout, const VertexMasks& m
 
 /// @brief The other steps, for the whole mesh.
 /// @param lowest  of each of the layout's spans, whether its lowest vertex is inside
-/// @param finest  of all tiles, ascending
+/// @param finest  of all tiles, ascending; let go of at once
 /// @param top     not 0
-Grading gradeTiles(const Layout& layout, const std::vector<bool>& lowest,
-                   const std::vector<FinestOctants>& finest, int top, Interrupt& interrupt);
+Grading gradeTiles(const Layout& layout, const std::vector<bool>& lowest, std::vector<FinestOctants> finest,
+                   int top, Interrupt& interrupt);
 
 /// The level from which on no coarser octant fits into the inside, or into the limit of edges.
 /// @param mostCells  the limit, as a number of cells; default: none

@@ -14,31 +14,31 @@ namespace {
 class Guard {
 public:
     Guard(const Field& field, double tau, const Vertices& vertices, const Guardable& products,
-          Interrupt& interrupt)
-        : mField(field), mVertices(vertices), mProducts(products), mInterrupt(interrupt) {
+          Interrupt& interrupt, const Seams& seams)
+        : mField(field), mVertices(vertices), mProducts(products), mInterrupt(interrupt), mSeams(seams) {
         mThreshold.tau = tau;
     }
 
     Guarded run() {
+        const Layout& layout = mVertices.layout;
         Guarded guarded;
-        guarded.flagged.resize(mVertices.layout.surfaceTiles.size());
+        guarded.flagged.resize(layout.surfaceTiles.size());
         mThreshold.flagged = &guarded.flagged;
-        std::vector<TileRef> tiles(mVertices.layout.surfaceTiles.size());
+        std::vector<TileRef> tiles(std::size_t(layout.ownCount()));
         for (std::size_t t = 0; t < tiles.size(); ++t) tiles[t] = TileRef(t);
         std::vector<char> hasBad(tiles.size());
         while (true) {
-            const Flips flips = mProducts.flips.flips();
-            const std::vector<VertexRef> bad = verticesOfBadTets(mVertices, flips, tiles, hasBad, mInterrupt);
             VertexMasks changed(guarded.flagged.size());
-            std::int64_t added = 0;
-            for (const VertexRef& v : bad) {
-                if (guarded.flagged[v.tile][v.lattice].test(v.vertex)) continue;
-                guarded.flagged[v.tile][v.lattice].set(v.vertex);
-                changed[v.tile][v.lattice].set(v.vertex);
-                ++added;
-            }
+            mSeams.together([&] {
+                const Flips flips = mProducts.flips.flips();
+                for (const VertexRef& v : verticesOfBadTets(mVertices, flips, tiles, hasBad, mInterrupt))
+                    changed[v.tile][v.lattice].set(v.vertex);
+            });
+            mSeams.unite(changed);
+            const std::int64_t added = flag(changed, guarded.flagged);
             if (added == 0 || mInterrupt.stopped()) {
                 guarded.tilesWithBad = std::count(hasBad.begin(), hasBad.end(), 1);
+                mSeams.sum(guarded.tilesWithBad);
                 return guarded;
             }
             guarded.count += added;
@@ -54,13 +54,29 @@ private:
         return tilesNear(mVertices.layout, changed, mInterrupt);
     }
 
+    /// @param bad  receives those of its vertices that were not flagged before
+    /// @return how many these are, in all parts
+    std::int64_t flag(VertexMasks& bad, VertexMasks& flagged) const {
+        std::int64_t added = 0;
+        for (std::size_t t = 0; t < bad.size(); ++t) {
+            for (std::size_t l = 0; l < 2; ++l) {
+                bad[t][l] &= ~flagged[t][l];
+                flagged[t][l] |= bad[t][l];
+                if (std::int64_t(t) < mVertices.layout.ownCount()) added += bad[t][l].count();
+            }
+        }
+        mSeams.sum(added);
+        return added;
+    }
+
     /// @param changed  the vertices newly flagged; then also those that differ in label or destination, and
     /// the lower ends of spines that are flipped another way
     void makeAnew(VertexMasks& changed) {
         const Layout& layout = mVertices.layout;
-        turnArrows(mField, layout, mThreshold, near(changed), mProducts.arrows, mInterrupt);
+        mSeams.together(
+            [&] { turnArrows(mField, layout, mThreshold, near(changed), mProducts.arrows, mInterrupt); });
         if (mInterrupt.stopped()) return;
-        Labels labels = labelVertices(layout, mProducts.arrows, mInterrupt);
+        Labels labels = labelVertices(layout, mProducts.arrows, mInterrupt, mSeams);
         if (mInterrupt.stopped()) return;
         const VertexMasks& before = mProducts.labels.manifold;
         for (std::size_t t = 0; t < before.size(); ++t) {
@@ -68,13 +84,18 @@ private:
         }
         std::swap(mProducts.labels, labels); // labels has the old ones now
         const std::vector<TileRef> moved = near(changed);
-        Destinations destinations =
-            findGradientDestinations(mField, layout, mProducts.arrows, mProducts.labels, mThreshold, &moved,
-                                     &mProducts.destinations, mInterrupt);
+        Destinations destinations;
+        mSeams.together([&] {
+            destinations = findGradientDestinations(mField, layout, mProducts.arrows, mProducts.labels,
+                                                    mThreshold, &moved, &mProducts.destinations, mInterrupt);
+        });
         if (mInterrupt.stopped()) return;
+        destinations.exchange(mSeams);
         std::swap(mProducts.destinations, destinations);
         for (const TileRef t : moved) markMoved(t, labels, destinations, changed);
-        mProducts.flips.choose(near(changed), changed, mInterrupt);
+        for (std::int64_t t = layout.ownCount(); t < layout.surfaceCount(); ++t)
+            markMoved(TileRef(t), labels, destinations, changed);
+        mProducts.flips.choose(near(changed), changed, mInterrupt, mSeams);
     }
 
     /// Mark the vertices of a tile that are elsewhere than they were.
@@ -94,14 +115,15 @@ private:
     const Vertices& mVertices;
     const Guardable& mProducts;
     Interrupt& mInterrupt;
+    const Seams& mSeams;
     Threshold mThreshold;
 };
 
 } // namespace
 
 Guarded guardAngles(const Field& field, double tau, const Vertices& vertices, const Guardable& products,
-                    Interrupt& interrupt) {
-    return Guard(field, tau, vertices, products, interrupt).run();
+                    Interrupt& interrupt, const Seams& seams) {
+    return Guard(field, tau, vertices, products, interrupt, seams).run();
 }
 
 } // namespace vdbtet

@@ -6,6 +6,7 @@
 #include "cuts/Arrows.h"
 #include "destinations/LocalVertices.h"
 #include "flips/QualityFlips.h"
+#include "tiles/Seams.h"
 
 #include <cstdint>
 
@@ -15,8 +16,9 @@ namespace vdbtet {
 constexpr double kGuardMin = 18.0, kGuardMax = 146.0;
 
 struct Guarded {
-    VertexMasks flagged;    ///< of each surface tile, the vertices whose rule is that of version 2
-    std::int64_t count = 0; ///< of them
+    VertexMasks flagged; ///< of each surface tile, the vertices whose rule is that of version 2
+    /// And of all parts of the mesh:
+    std::int64_t count = 0; ///< of flagged vertices
     int rounds = 0;
     std::int64_t tilesWithBad = 0; ///< that own a tet in the mesh that is bad still
 };
@@ -40,6 +42,6 @@ struct Guardable {
 /// that is flipped: for these (8.54, 164.18) is proven (docs/angles.md, theorem 4). Labels are a fixpoint of
 /// all arrows, so they are made anew as a whole, by masks; all else in the tiles that they change.
 Guarded guardAngles(const Field& field, double tau, const Vertices& vertices, const Guardable& products,
-                    Interrupt& interrupt);
+                    Interrupt& interrupt, const Seams& seams = Seams());
 
 } // namespace vdbtet

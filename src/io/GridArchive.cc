@@ -81,6 +81,9 @@ openvdb::GridBase::Ptr GridArchive::read(const Entry& entry, bool delayLoad) {
         std::all_of(mEntries.begin(), mEntries.end(), [](const Entry& e) { return e.grid; });
     if (delayLoad && allKnown) {
         openvdb::io::File file(mPath);
+#ifdef OPENVDB_USE_DELAYED_LOADING
+        file.setCopyMaxBytes(0); // it is mapped as it is
+#endif
         file.open(/*delayLoad=*/true);
         return file.readGrid(openvdb::io::GridDescriptor::nameAsString(entry.descriptor.uniqueName()));
     }

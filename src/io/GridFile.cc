@@ -197,6 +197,12 @@ openvdb::GridBase::Ptr readGridPart(const std::string& path, const std::string& 
     });
 }
 
+openvdb::GridBase::Ptr readGridHead(const std::string& path, const std::string& name) {
+    return withArchive(path, [&](GridArchive& archive) {
+        return archive.readHead(knownEntry(archive, path, findGrid(archive, path, name)));
+    });
+}
+
 std::vector<GridHead> readHeads(const std::string& path) {
     return withArchive(path, [&](GridArchive& archive) {
         const std::vector<Entry>& entries = archive.entries();
@@ -228,17 +234,18 @@ openvdb::MetaMap readFileMetadata(const std::string& path) {
     return withArchive(path, [](GridArchive& archive) { return archive.metadata(); });
 }
 
-std::vector<openvdb::GridBase::ConstPtr>
-readFields(const std::string& path, const std::vector<std::string>& names, const std::string& except) {
+std::vector<openvdb::GridBase::ConstPtr> readFields(const std::string& path,
+                                                    const std::vector<std::string>& names,
+                                                    const std::string& except, bool delayLoad) {
     return withArchive(path, [&](GridArchive& archive) {
         std::vector<openvdb::GridBase::ConstPtr> grids;
         for (const std::string& name : names)
-            grids.push_back(readEntry(archive, path, findByName(archive, path, name), false));
+            grids.push_back(readEntry(archive, path, findByName(archive, path, name), delayLoad));
         if (!names.empty()) return grids;
         for (std::size_t i = 0; i < archive.entries().size(); ++i) {
             const Entry& entry = archive.entries()[i];
             if (!entry.grid || !FieldSampler::canSample(*entry.grid) || plainName(entry) == except) continue;
-            grids.push_back(readEntry(archive, path, i, false));
+            grids.push_back(readEntry(archive, path, i, delayLoad));
         }
         return grids;
     });

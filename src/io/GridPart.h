@@ -15,4 +15,8 @@ namespace vdbtet {
 openvdb::GridBase::Ptr readGridPart(const std::string& path, const std::string& name,
                                     const GridArchive::ChooseLeaves& choose);
 
+/// @return the metadata and transform of the grid that readGrid() would read
+/// @throw FileError, UnsupportedGrid as readGrid()
+openvdb::GridBase::Ptr readGridHead(const std::string& path, const std::string& name);
+
 } // namespace vdbtet

@@ -199,7 +199,7 @@ void MeshFile::end() {
     if (impl.compressed) {
         impl.bytes = impl.compressed->finish();
     } else {
-        impl.format->finish(impl.files);
+        impl.format->finish(impl.files, impl.format->checksums());
     }
     for (RecordFile& file : impl.files) file.prepare();
     for (RecordFile& file : impl.files) file.commit();

@@ -108,17 +108,36 @@ std::int64_t Labelling::breakTies() {
     return count;
 }
 
-Labels labelVertices(const Layout& layout, const Arrows& arrows, Interrupt& interrupt) {
+Labels labelVertices(const Layout& layout, const Arrows& arrows, Interrupt& interrupt, const Seams& seams) {
     Labelling labelling(layout, arrows, interrupt);
+    const auto exchange = [&] {
+        seams.exchange(
+            [&](TileRef t, Bytes& bytes) {
+                pack(bytes, labelling.undecided()[t]);
+                pack(bytes, labelling.manifold()[t]);
+            },
+            [&](TileRef t, Unpacker& next) {
+                next(&labelling.undecided()[t], 1);
+                next(&labelling.manifold()[t], 1);
+            });
+    };
+    exchange();
     for (int round = 0; round < Labelling::kRounds; ++round) {
-        for (bcc::Lattice lattice : {bcc::A, bcc::B}) labelling.runPhase(lattice);
+        for (bcc::Lattice lattice : {bcc::A, bcc::B}) {
+            labelling.runPhase(lattice);
+            exchange();
+        }
     }
     Labels labels;
     const auto start = std::chrono::steady_clock::now();
     if (!interrupt.stopped()) {
         labels.backLabelled = labelling.findLeft();
-        labelling.runWorklist();
+        // Wherever a chain of arrows leads from part to part, each turn follows it to the next seam.
+        while (seams.any(labelling.runWorklist())) exchange();
         labels.tieBroken = labelling.breakTies();
+        exchange();
+        seams.sum(labels.backLabelled);
+        seams.sum(labels.tieBroken);
         labels.backLabelled -= labels.tieBroken;
     }
     labels.worklistSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -5,6 +5,7 @@
 #include "Parallel.h"
 #include "cuts/Arrows.h"
 #include "tiles/Layout.h"
+#include "tiles/Seams.h"
 
 #include <array>
 #include <cstdint>
@@ -28,6 +29,8 @@ struct Labels {
     double worklistSeconds = 0.0;  ///< the serial part of the time
 };
 
-Labels labelVertices(const Layout& layout, const Arrows& arrows, Interrupt& interrupt);
+/// Label the vertices of own tiles, and get the labels of borrowed ones; counts are those of all parts.
+Labels labelVertices(const Layout& layout, const Arrows& arrows, Interrupt& interrupt,
+                     const Seams& seams = Seams());
 
 } // namespace vdbtet

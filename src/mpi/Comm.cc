@@ -134,19 +134,11 @@ std::string Comm::fromRank(int from, const std::string& text) const {
     return result;
 }
 
-std::vector<Bytes> Comm::gather(const Bytes& own) {
+std::vector<std::int64_t> Comm::gatherSizes(std::int64_t own) {
     std::vector<std::int64_t> sizes(static_cast<std::size_t>(mSize));
-    const std::int64_t size = std::int64_t(own.size());
-    MPI_Allgather(&size, 1, MPI_INT64_T, sizes.data(), 1, MPI_INT64_T, mComm);
-    std::vector<Bytes> all(static_cast<std::size_t>(mSize));
-    for (int from = 0; from < mSize; ++from) {
-        Bytes& part = all[std::size_t(from)];
-        if (from == mRank) part = own;
-        part.resize(std::size_t(sizes[std::size_t(from)]));
-        broadcast(from, part.data(), part.size());
-    }
-    if (mSize > 1) mToAll += size;
-    return all;
+    MPI_Allgather(&own, 1, MPI_INT64_T, sizes.data(), 1, MPI_INT64_T, mComm);
+    if (mSize > 1) mToAll += own;
+    return sizes;
 }
 
 std::vector<Bytes> Comm::exchange(const std::vector<Bytes>& out) {

@@ -2,54 +2,17 @@
 /// The few ways in which ranks talk, and how an error of one of them ends the work of all.
 #pragma once
 
+#include "tiles/Bytes.h"
+
 #include <mpi.h>
 
 #include <cstdint>
-#include <cstring>
 #include <functional>
 #include <string>
 #include <type_traits>
 #include <vector>
 
 namespace vdbtet::mpi {
-
-/// Bytes on their way to or from a rank.
-using Bytes = std::vector<char>;
-
-template <typename T>
-void pack(Bytes& bytes, const T* values, std::size_t count) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    const auto* from = reinterpret_cast<const char*>(values);
-    bytes.insert(bytes.end(), from, from + count * sizeof(T));
-}
-template <typename T>
-void pack(Bytes& bytes, const T& value) {
-    pack(bytes, &value, 1);
-}
-
-/// Reads what pack() has put there, in the same order.
-class Unpacker {
-public:
-    explicit Unpacker(const Bytes& bytes) : mNext(bytes.data()), mEnd(bytes.data() + bytes.size()) {}
-
-    template <typename T>
-    void operator()(T* values, std::size_t count) {
-        static_assert(std::is_trivially_copyable_v<T>);
-        if (count == 0) return;
-        std::memcpy(static_cast<void*>(values), mNext, count * sizeof(T));
-        mNext += count * sizeof(T);
-    }
-    template <typename T>
-    T next() {
-        T value;
-        (*this)(&value, 1);
-        return value;
-    }
-    bool done() const { return mNext == mEnd; }
-
-private:
-    const char *mNext, *mEnd;
-};
 
 /// @brief A communicator of its own, with the ranks of the caller's.
 /// @details All members but rank() and size() are collective. They are called by one thread, and throw
@@ -85,19 +48,25 @@ public:
     /// @return what @a from has
     std::string fromRank(int from, const std::string& text) const;
 
+    /// Call @a visit(list) with what each rank has, by rank; of others' lists one at a time is kept.
+    template <typename T, typename Visit>
+    void forEachRank(const std::vector<T>& own, const Visit& visit) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        const std::vector<std::int64_t> sizes = gatherSizes(std::int64_t(own.size() * sizeof(T)));
+        for (int from = 0; from < mSize; ++from) {
+            const auto size = std::size_t(sizes[std::size_t(from)]);
+            std::vector<T> others(from == mRank ? 0 : size / sizeof(T));
+            const std::vector<T>& list = from == mRank ? own : others;
+            broadcast(from, const_cast<char*>(reinterpret_cast<const char*>(list.data())), size);
+            visit(list);
+        }
+    }
+
     /// @return what all ranks have, by rank
-    std::vector<Bytes> gather(const Bytes& own);
     template <typename T>
     std::vector<std::vector<T>> gather(const std::vector<T>& own) {
-        Bytes bytes;
-        pack(bytes, own.data(), own.size());
         std::vector<std::vector<T>> all;
-        for (Bytes& part : gather(bytes)) {
-            all.emplace_back(part.size() / sizeof(T));
-            Unpacker next(part);
-            next(all.back().data(), all.back().size());
-            Bytes().swap(part);
-        }
+        forEachRank(own, [&](const std::vector<T>& list) { all.push_back(list); });
         return all;
     }
 
@@ -106,6 +75,8 @@ public:
     std::vector<Bytes> exchange(const std::vector<Bytes>& out);
 
 private:
+    /// @return the bytes that each rank is about to send to all
+    std::vector<std::int64_t> gatherSizes(std::int64_t own);
     void broadcast(int from, char* data, std::size_t size) const;
 
     MPI_Comm mComm = MPI_COMM_NULL;

@@ -58,13 +58,11 @@ MeshFile::MeshFile(MPI_Comm comm, const std::string& path, const std::string& fo
     : mImpl(std::make_unique<Impl>(comm, path, format, options)) {
     Impl& impl = *mImpl;
     impl.comm.together([&] {
-        const MeshFormat& found = vdbtet::MeshFile::formatOf(path, format, options);
+        vdbtet::MeshFile::formatOf(path, format, options); // or throw
         if (options.compression > 0)
             throw BadOption(
                 "several ranks write no compressed files, of which no place is known ahead; leave "
                 "--compress out");
-        if (found.name == "npz")
-            throw BadOption("several ranks write no npz, which has checksums; choose another format");
     });
     const bool several = onSeveralHosts(comm);
     impl.comm.together([&] {
@@ -124,8 +122,13 @@ void MeshFile::end() {
         if (impl.comm.rank() == 0) return;
         for (RecordFile& file : impl.files) file.file().leave();
     });
+    std::vector<std::uint32_t> checksums(impl.format->checksums().size());
+    impl.comm.forEachRank(impl.format->checksums(), [&](const auto& part) {
+        for (std::size_t i = 0; i < part.size(); ++i) checksums[i] ^= part[i];
+    });
     impl.comm.together([&] {
         if (impl.comm.rank() != 0) return;
+        impl.format->finish(impl.files, checksums);
         for (RecordFile& file : impl.files) file.commit();
     });
 }

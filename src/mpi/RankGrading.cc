@@ -4,6 +4,8 @@
 
 #include <tbb/parallel_sort.h>
 
+#include <utility>
+
 namespace vdbtet::mpi {
 
 Grading gradePart(Comm& comm, const RankPart& part, const std::vector<TileSigns>& signs,
@@ -11,11 +13,12 @@ Grading gradePart(Comm& comm, const RankPart& part, const std::vector<TileSigns>
     if (top == 0) return gradeInterior(part.layout, signs, moved, 0, interrupt);
     std::vector<FinestOctants> own, all;
     comm.together([&] { own = findFinest(part.layout, moved, interrupt); });
-    for (const auto& some : comm.gather(own)) all.insert(all.end(), some.begin(), some.end());
+    comm.forEachRank(own, [&](const auto& some) { all.insert(all.end(), some.begin(), some.end()); });
+    std::vector<FinestOctants>().swap(own);
     tbb::parallel_sort(all.begin(), all.end(),
                        [](const FinestOctants& a, const FinestOctants& b) { return a.tile < b.tile; });
     Grading grading;
-    comm.together([&] { grading = gradeTiles(part.layout, part.lowest, all, top, interrupt); });
+    comm.together([&] { grading = gradeTiles(part.layout, part.lowest, std::move(all), top, interrupt); });
     return grading;
 }
 
@@ -48,9 +51,9 @@ void OtherRanks::addCounts(int tier, const Spans& spans, std::vector<SpanCounts>
     for (std::int64_t s = 0; s < spans.size(); ++s) {
         if (isOwn(tier, spans[s])) own.push_back({s, counts[std::size_t(s)]});
     }
-    for (const auto& some : mComm.gather(own)) {
+    mComm.forEachRank(own, [&](const auto& some) {
         for (const Counted& one : some) counts[std::size_t(one.span)] = one.counts;
-    }
+    });
 }
 
 void OtherRanks::addSums(Numbering& numbering) {
@@ -65,9 +68,9 @@ void OtherRanks::addSums(Numbering& numbering) {
 }
 
 void OtherRanks::addUsed(const RankPart& part, Numbering& numbering) const {
-    for (TileExchange* exchange : {part.beside.get(), part.far.get()}) {
-        (*exchange)(numbering.usedB);
-        if (mGrading.top == 0) (*exchange)(numbering.usedA[0]);
+    for (const TileExchange* exchange : {part.beside.get(), part.far.get()}) {
+        exchange->exchange(numbering.usedB);
+        if (mGrading.top == 0) exchange->exchange(numbering.usedA[0]);
     }
     // Ids of a graded mesh are looked up far away.
     struct Used {
@@ -79,9 +82,9 @@ void OtherRanks::addUsed(const RankPart& part, Numbering& numbering) const {
         for (std::size_t record = 0; record < mOwn[tier].size(); ++record) {
             if (mOwn[tier][record]) own.push_back({std::int64_t(record), numbering.usedA[tier][record]});
         }
-        for (const auto& some : mComm.gather(own)) {
+        mComm.forEachRank(own, [&](const auto& some) {
             for (const Used& one : some) numbering.usedA[tier][std::size_t(one.record)] = one.mask;
-        }
+        });
     }
 }
 

@@ -2,22 +2,41 @@
 /// Each stage does what is the rank's own; what it needs of others is exchanged between two stages.
 #include "mpi/RankPipeline.h"
 
+#include "mpi/RankFlips.h"
 #include "mpi/RankGrading.h"
 #include "mpi/RankRepair.h"
-#include "mpi/RankStages.h"
 
 #include "BeginRun.h"
+#include "Limits.h"
 #include "Stage.h"
 #include "Tell.h"
 #include "cuts/Arrows.h"
 #include "destinations/Destinations.h"
+#include "guard/Guard.h"
+#include "optimize/Optimize.h"
 
 #include <vdbtet/Errors.h>
+
+#include <malloc.h>
 
 #include <optional>
 #include <utility>
 
 namespace vdbtet::mpi {
+
+namespace {
+
+/// @brief Let go of the rank's part of the grid.
+/// @details Voxels are in small blocks, which the C library keeps, while the arrays to come are too large for
+/// them.
+void dropField(std::shared_ptr<const Field>& field) {
+    field.reset();
+#ifdef __GLIBC__
+    ::malloc_trim(0);
+#endif
+}
+
+} // namespace
 
 bool runPart(Comm& comm, std::shared_ptr<const Field> field, const Frame& frame, const Options& options,
              Skeleton skeleton, const std::vector<std::int64_t>& own, int margin, MeshSink& sink,
@@ -27,9 +46,11 @@ bool runPart(Comm& comm, std::shared_ptr<const Field> field, const Frame& frame,
     std::vector<openvdb::Coord> tiles;
     for (const std::int64_t tile : own) tiles.push_back(skeleton.tiles[std::size_t(tile)]);
     report.surfaceTiles = std::int64_t(skeleton.tiles.size());
+    const bool isThird = options.tiger == 3;
+    const double tau = isThird ? options.tau.value_or(kDefaultTau) : 0.5;
     std::optional<Cuts> cuts = stage("cuts", [&] {
         std::optional<Cuts> found;
-        comm.together([&] { found = findCuts(*field, tiles, 0.5, interrupt); });
+        comm.together([&] { found = findCuts(*field, tiles, tau, interrupt); });
         return found;
     });
     report.cutEdges = cuts->arrows.cutEdges;
@@ -43,28 +64,51 @@ bool runPart(Comm& comm, std::shared_ptr<const Field> field, const Frame& frame,
     });
     std::vector<openvdb::Coord>().swap(skeleton.tiles); // the layout's spans have them
     const Layout& layout = part.layout;
-    TileExchange& beside = *part.beside;
+    const Seams& beside = *part.beside;
     rankReport.surfaceTiles = layout.ownCount();
     rankReport.borrowedTiles = layout.borrowed;
     if (report.cutEdges == 0)
         throw NoSurface("the shape slips between the lattice points; use a finer spacing");
+    requireFewTets(layout, options);
     signs.resize(layout.surfaceTiles.size());
-    beside(signs);
-    if (options.grade) (*part.far)(signs);
+    beside.exchange(signs);
+    if (options.grade) part.far->exchange(signs);
 
-    const Labels labels =
-        stage("labels", [&] { return labelPart(comm, beside, layout, cuts->arrows, interrupt); });
-    const Destinations destinations = stage("destinations", [&] {
+    Labels labels = stage("labels", [&] { return labelVertices(layout, cuts->arrows, interrupt, beside); });
+    Destinations destinations = stage("destinations", [&] {
         Destinations found;
-        comm.together([&] { found = findDestinations(*field, layout, cuts->arrows, labels, interrupt); });
-        borrowDestinations(beside, labels, found);
+        comm.together([&] {
+            found = isThird ? findGradientDestinations(*field, layout, cuts->arrows, labels, {tau, nullptr},
+                                                       nullptr, nullptr, interrupt)
+                            : findDestinations(*field, layout, cuts->arrows, labels, interrupt);
+        });
+        found.exchange(beside);
         return found;
     });
-    cuts.reset();
-    field.reset();
+    if (!isThird) cuts.reset();
     Vertices vertices{layout, signs, labels, destinations};
-    const Flips flips =
-        stage("flips", [&] { return flipPart(comm, beside, vertices, options.tiger, interrupt); });
+    std::optional<QualityFlips> quality;
+    Flips flips = stage("flips", [&] {
+        if (!isThird) return flipPart(comm, beside, vertices, options.tiger, interrupt);
+        quality.emplace(vertices);
+        quality->chooseAll(interrupt, beside);
+        return Flips();
+    });
+    bool passed = false;
+    if (isThird) {
+        const Guarded guarded = stage("guard", [&] {
+            return guardAngles(*field, tau, vertices, {cuts->arrows, labels, destinations, *quality},
+                               interrupt, beside);
+        });
+        report.flagged = guarded.count;
+        report.guardRounds = guarded.rounds;
+        passed = guarded.tilesWithBad == 0;
+        flips = quality->flips();
+        sumFlips(comm, flips);
+        quality.reset();
+        cuts.reset();
+    }
+    if (!options.optimize) dropField(field);
     tellLabels(labels, flips, report);
 
     const Repair repair =
@@ -73,16 +117,27 @@ bool runPart(Comm& comm, std::shared_ptr<const Field> field, const Frame& frame,
     report.boundary = repair.counts;
     if (!repair.changes.tiles.empty()) vertices.changes = &repair.changes;
 
-    const auto outer = vertices.changes ? vertices.changes->withExposed(labels.manifold) : VertexMasks();
+    Optimized optimized;
+    if (options.optimize) {
+        optimized = stage("optimize", [&] {
+            return optimize(*field, vertices, flips, optimizeGoals(options, report), interrupt, beside);
+        });
+        comm.least(optimized.before.min);
+        comm.most(optimized.before.max);
+        vertices.moves = &optimized.moves;
+        dropField(field);
+    }
+    const auto& moved = options.optimize ? optimized.moves.moved : labels.manifold;
+    const auto outer = vertices.changes ? vertices.changes->withExposed(moved) : VertexMasks();
     const Grading grading = stage("grading", [&] {
         const int top = options.grade ? coarsestLevel(layout, mostCells(options, frame)) : 0;
-        return gradePart(comm, part, signs, vertices.changes ? outer : labels.manifold, top, interrupt);
+        return gradePart(comm, part, signs, vertices.changes ? outer : moved, top, interrupt);
     });
     OtherRanks others(comm, layout, grading);
     Numbering numbering =
         stage("numbering", [&] { return numberMesh(vertices, flips, grading, frame, interrupt, &others); });
     others.addUsed(part, numbering);
-    tellNumbers(numbering, options, false, report);
+    tellNumbers(numbering, options, passed, report);
     const std::vector<TileRange> ranges = others.ranges(part, skeleton, numbering);
     for (const TileRange& range : ranges) {
         const auto before = [&](const Place& at) {
@@ -113,7 +168,7 @@ bool runPart(Comm& comm, std::shared_ptr<const Field> field, const Frame& frame,
         Comm& all;
     } reduction{comm};
     angles.reduce(reduction);
-    tellAngles(angles, report);
+    tellAngles(angles, options.optimize ? &optimized : nullptr, report);
     stage("end", [&] {
         comm.together([&] { sink.end(); });
         return 0;

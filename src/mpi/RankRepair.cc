@@ -39,25 +39,29 @@ struct Record {
     Coord tile;
     TileSigns signs;
     std::array<TileMask, 2> manifold;
-    std::vector<float> distances;
+    std::vector<float> distances; // of destinations, as the next two
     std::vector<std::uint8_t> directions;
+    std::vector<openvdb::Vec3f> offsets;
     std::vector<std::uint16_t> flips;
 };
 
+/// @param all  may be empty: then so is the list
+template <typename T>
+void packSome(const std::vector<T>& all, std::int64_t begin, std::int64_t end, Bytes& bytes) {
+    packList(bytes, all.empty() ? all : std::vector<T>(all.begin() + begin, all.begin() + end));
+}
+
 void packRecord(const Vertices& vertices, const Flips& flips, TileRef t, Bytes& bytes) {
     const Destinations& destinations = vertices.destinations;
-    const std::int64_t first = destinations.first[std::size_t(t)][0],
-                       moves = destinations.first[std::size_t(t) + 1][0] - first,
-                       firstFlip = flips.first[std::size_t(t)],
-                       flipCount = flips.first[std::size_t(t) + 1] - firstFlip;
+    const std::int64_t begin = destinations.first[std::size_t(t)][0],
+                       end = destinations.first[std::size_t(t) + 1][0];
     pack(bytes, vertices.layout.surfaceTiles[std::size_t(t)]);
     pack(bytes, vertices.signs[std::size_t(t)]);
     pack(bytes, vertices.labels.manifold[std::size_t(t)]);
-    pack(bytes, moves);
-    pack(bytes, destinations.distances.data() + first, std::size_t(moves));
-    pack(bytes, destinations.directions.data() + first, std::size_t(moves));
-    pack(bytes, flipCount);
-    pack(bytes, flips.codes.data() + firstFlip, std::size_t(flipCount));
+    packSome(destinations.distances, begin, end, bytes);
+    packSome(destinations.directions, begin, end, bytes);
+    packSome(destinations.offsets, begin, end, bytes);
+    packSome(flips.codes, flips.first[std::size_t(t)], flips.first[std::size_t(t) + 1], bytes);
 }
 
 Record unpackRecord(Unpacker& next) {
@@ -65,14 +69,16 @@ Record unpackRecord(Unpacker& next) {
     next(&record.tile, 1);
     next(&record.signs, 1);
     next(&record.manifold, 1);
-    const auto moves = std::size_t(next.next<std::int64_t>());
-    record.distances.resize(moves);
-    record.directions.resize(moves);
-    next(record.distances.data(), moves);
-    next(record.directions.data(), moves);
-    record.flips.resize(std::size_t(next.next<std::int64_t>()));
-    next(record.flips.data(), record.flips.size());
+    record.distances = next.nextList<float>();
+    record.directions = next.nextList<std::uint8_t>();
+    record.offsets = next.nextList<openvdb::Vec3f>();
+    record.flips = next.nextList<std::uint16_t>();
     return record;
+}
+
+template <typename T>
+void append(std::vector<T>& all, const std::vector<T>& more) {
+    all.insert(all.end(), more.begin(), more.end());
 }
 
 /// A mesh of some tiles, in the order that they have in the whole one; beyond them it is taken to be outside.
@@ -90,11 +96,10 @@ public:
         mDestinations.number(mLabels.manifold);
         mFlips.first.push_back(0);
         for (const Record& record : records) {
-            mDestinations.distances.insert(mDestinations.distances.end(), record.distances.begin(),
-                                           record.distances.end());
-            mDestinations.directions.insert(mDestinations.directions.end(), record.directions.begin(),
-                                            record.directions.end());
-            mFlips.codes.insert(mFlips.codes.end(), record.flips.begin(), record.flips.end());
+            append(mDestinations.distances, record.distances);
+            append(mDestinations.directions, record.directions);
+            append(mDestinations.offsets, record.offsets);
+            append(mFlips.codes, record.flips);
             mFlips.first.push_back(std::int64_t(mFlips.codes.size()));
             const SpansAround around = spans.around(record.tile);
             Neighbours& neighbours = mLayout.neighbours.emplace_back();
@@ -146,7 +151,7 @@ Repair repairPart(Comm& comm, const Vertices& vertices, const Flips& flips, Boun
             own.push_back(
                 {layout.surfaceTiles[std::size_t(VertexId::tile(vertex))], std::int32_t(vertex & kRest)});
     });
-    for (const auto& some : comm.gather(own)) bad.insert(bad.end(), some.begin(), some.end());
+    comm.forEachRank(own, [&](const auto& some) { bad.insert(bad.end(), some.begin(), some.end()); });
     Repair repair;
     repair.counts.found = repair.counts.left = std::int64_t(bad.size());
     if (bad.empty() || mode == Boundary::Raw) return repair;
@@ -163,9 +168,9 @@ Repair repairPart(Comm& comm, const Vertices& vertices, const Flips& flips, Boun
             if (has(wanted, layout.surfaceTiles[std::size_t(t)])) packRecord(vertices, flips, t, records);
         }
         std::vector<Record> all;
-        for (const Bytes& some : comm.gather(records)) {
+        comm.forEachRank(records, [&](const Bytes& some) {
             for (Unpacker next(some); !next.done();) all.push_back(unpackRecord(next));
-        }
+        });
         const Piece piece(std::move(all), layout.spans);
         std::vector<std::int64_t> ids;
         for (const BadVertex& vertex : bad)

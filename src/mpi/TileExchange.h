@@ -4,10 +4,9 @@
 
 #include "mpi/Comm.h"
 
-#include "tiles/Spans.h"
+#include "tiles/Seams.h"
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace vdbtet::mpi {
@@ -20,11 +19,8 @@ struct Borrowed {
 
 /// @brief Knows who needs which of our tiles, and whose tiles we need, and sends records of any kind.
 /// @details Made once for each set of tiles; collective like all of its members.
-class TileExchange {
+class TileExchange final : public Seams {
 public:
-    using Pack = std::function<void(TileRef, Bytes&)>;
-    using Unpack = std::function<void(TileRef, Unpacker&)>;
-
     /// @param own       the numbers of our tiles among all surface tiles, ascending; their references are
     ///                  0, 1, ...
     /// @param borrowed  those we need, ascending by owner, then tile
@@ -32,16 +28,12 @@ public:
     TileExchange(Comm& comm, const std::vector<std::int64_t>& own, const std::vector<Borrowed>& borrowed,
                  TileRef first);
 
-    /// Send the records of our tiles that others have borrowed, and get those that we have.
-    /// @param unpack  called in ascending order of the tiles' references
-    void operator()(const Pack& pack, const Unpack& unpack);
-
-    /// Of a record of one size for each tile.
-    template <typename Records>
-    void operator()(Records& records) {
-        (*this)([&](TileRef t, Bytes& bytes) { pack(bytes, records[std::size_t(t)]); },
-                [&](TileRef t, Unpacker& next) { next(&records[std::size_t(t)], 1); });
-    }
+    using Seams::exchange;
+    void exchange(const Pack& pack, const Unpack& unpack) const override;
+    void unite(VertexMasks& masks) const override;
+    void together(const std::function<void()>& work) const override { mComm.together(work); }
+    void sum(std::int64_t& value) const override { mComm.sum(value); }
+    bool any(bool value) const override { return mComm.any(value); }
 
 private:
     Comm& mComm;

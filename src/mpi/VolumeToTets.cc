@@ -2,11 +2,13 @@
 /// From a file to each rank's part of the tiles: first who finds which tiles, then who does them.
 #include <vdbtet/mpi/VolumeToTets.h>
 
+#include "mpi/LeafExchange.h"
 #include "mpi/Partition.h"
 #include "mpi/RankPipeline.h"
 
 #include "BeginRun.h"
 #include "ChooseLevel.h"
+#include "Limits.h"
 #include "Stage.h"
 #include "field/FiniteGrid.h"
 #include "field/GridField.h"
@@ -20,6 +22,7 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace vdbtet::mpi {
@@ -27,16 +30,6 @@ namespace vdbtet::mpi {
 using openvdb::Coord;
 
 namespace {
-
-void checkOptions(const Options& options) {
-    if (options.tiger == 3)
-        throw BadOption("version 3 of the method is not known to several ranks yet; vdb_tet has it");
-    if (options.nan != Nan::Error)
-        throw BadOption("values for NaN are not known to several ranks yet; vdb_tet has them");
-    if (options.maxMemory)
-        throw BadOption("a limit on memory is not known to several ranks yet; vdb_tet has it");
-    if (options.optimize) throw BadOption("optimisation is not known to several ranks yet; vdb_tet has it");
-}
 
 /// A tile where the surface may be, and what is known of the one above it.
 struct Found {
@@ -47,13 +40,21 @@ struct Found {
 /// How far the values of a leaf reach, beyond its voxels: to trilinear interpolation, and to a tile's border.
 constexpr double kVoxelReach = 2.0, kCellReach = 3.0;
 
+/// @return whether any block in a box may be a rank's; of a single block, whether it is.
+bool mayHave(const CurvePartition& finders, const openvdb::CoordBBox& blocks, int rank) {
+    // Along the curve all blocks of a box lie between these two.
+    return finders(blocks.min()) <= rank && rank <= finders(blocks.max());
+}
+
 /// @return whether each block or one of its neighbours is a rank's.
 std::vector<bool> besideOwn(const CurvePartition& finders, const std::vector<Coord>& blocks, int rank) {
     std::vector<bool> beside;
     for (const Coord& block : blocks) {
         bool any = false;
-        for (int slot = 0; slot < 27 && !any; ++slot)
-            any = finders(block.offsetBy(slot / 9 - 1, slot / 3 % 3 - 1, slot % 3 - 1)) == rank;
+        if (mayHave(finders, openvdb::CoordBBox(block.offsetBy(-1), block.offsetBy(1)), rank)) {
+            for (int slot = 0; slot < 27 && !any; ++slot)
+                any = finders(block.offsetBy(slot / 9 - 1, slot / 3 % 3 - 1, slot % 3 - 1)) == rank;
+        }
         beside.push_back(any);
     }
     return beside;
@@ -68,8 +69,10 @@ public:
         : mComm(comm), mSource(source), mOwner(owner), mOptions(options), mReport(report),
           mRankReport(rankReport) {}
 
-    /// @param grid  with the leaves where this rank is to find the surface, and those next to them
-    void run(typename GridT::Ptr grid, const CurvePartition& finders, MeshSink& sink) {
+    /// @param grid    with the leaves where this rank is to find the surface, and those next to them
+    /// @param blocks  of all leaves
+    void run(typename GridT::Ptr grid, const CurvePartition& finders, const std::vector<Coord>& blocks,
+             MeshSink& sink) {
         mGrid = std::move(grid);
         Interrupt interrupt(nullptr);
         mComm.together([&] {
@@ -80,9 +83,17 @@ public:
             scan(finders, interrupt);
             return 0;
         });
-        for (int margin = 0; margin < 2; ++margin) {
+        // As runPipeline() does.
+        for (int margin = mOptions.optimize ? 1 : 0; margin < 2; ++margin) {
             const Report before = mReport;
-            if (!mGrid) mComm.together([&] { mGrid = readFinding(mComm, mSource, finders); });
+            if (!mGrid) {
+                mComm.together([&] {
+                    mGrid = openvdb::gridPtrCast<GridT>(
+                        readGridPart(mSource.path, mSource.name,
+                                     [&](const auto&) { return besideOwn(finders, blocks, mComm.rank()); }));
+                    mReplacement->apply(*mGrid);
+                });
+            }
             Skeleton skeleton =
                 runStage("tiles", interrupt, mReport, [&] { return findTiles(finders, margin, interrupt); });
             std::vector<std::int64_t> own;
@@ -90,8 +101,9 @@ public:
                 if (skeleton.owner(skeleton.tiles[t]) == mComm.rank()) own.push_back(std::int64_t(t));
             }
             auto field = std::make_shared<const PartField>(
-                runStage("read part", interrupt, mReport, [&] { return readFor(skeleton, own); }), mFrame,
-                mLevel);
+                runStage("share voxels", interrupt, mReport,
+                         [&] { return partFor(skeleton, own, finders, blocks); }),
+                mFrame, mLevel);
             const Field* its = &field->field;
             if (runPart(mComm, std::shared_ptr<const Field>(std::move(field), its), mFrame, mOptions,
                         std::move(skeleton), own, margin, sink, mReport, mRankReport))
@@ -111,37 +123,32 @@ private:
     };
 
     void scan(const CurvePartition& finders, Interrupt& interrupt) {
-        ValueScan scan, common;
+        ValueScan scan;
         mComm.together([&] {
+            // All ranks have all tiles, and where leaves were not read, more.
             scan = scanValues(*mGrid, interrupt,
-                              [&](const auto& leaf) { return finders(leaf.origin() >> 3) == mComm.rank(); });
-            common = scanValues(*mGrid, interrupt, [](const auto&) { return false; });
+                              [&](const Coord& origin) { return finders(origin >> 3) == mComm.rank(); });
         });
         ValueScan all;
-        for (const auto& one : mComm.gather(std::vector<ValueScan>{scan})) all.add(one[0]);
-        // All ranks have all values that are not in leaves.
-        all.bad -= (mComm.size() - 1) * common.bad;
-        requireInside(requireFinite(all, double(mGrid->background()), *mGrid), mLevel);
+        mComm.forEachRank(std::vector<ValueScan>{scan}, [&](const auto& one) { all.add(one[0]); });
+        mReplacement.emplace(all, *mGrid, mLevel, mOptions.nan);
+        requireInside(mReplacement->values(), mLevel);
+        mReport.badValues = mReplacement->count();
+        mComm.together([&] { mReplacement->apply(*mGrid); });
     }
 
     /// All ranks together find all surface tiles, each where it has the leaves.
     Skeleton findTiles(const CurvePartition& finders, int margin, Interrupt& interrupt) {
-        struct Finder {
-            void operator()(const Coord& block, const TileMask& mixed) {
-                if ((*finders)(block) == rank) near(block, mixed);
-            }
-            NearTiles near;
-            const CurvePartition* finders;
-            int rank;
-        };
         std::vector<Found> found;
         mComm.together([&] {
-            tbb::enumerable_thread_specific<Finder> parts(
-                Finder{NearTiles(mFrame, mOptions.maxSurfaceTiles, margin), &finders, mComm.rank()});
-            forEachSurfaceBlock(mGrid->tree(), mLevel, mOptions.maxSurfaceTiles, interrupt, parts);
+            tbb::enumerable_thread_specific<NearTiles> parts(mFrame, mOptions.maxSurfaceTiles, margin);
+            // Where leaves are others', there seem to be surfaces.
+            forEachSurfaceBlock(
+                mGrid->tree(), mLevel, mOptions.maxSurfaceTiles, interrupt, parts,
+                [&](const openvdb::CoordBBox& blocks) { return mayHave(finders, blocks, mComm.rank()); });
             Coords tiles;
-            for (const Finder& part : parts)
-                tiles.insert(tiles.end(), part.near.tiles().begin(), part.near.tiles().end());
+            for (const NearTiles& part : parts)
+                tiles.insert(tiles.end(), part.tiles().begin(), part.tiles().end());
             tbb::parallel_sort(tiles.begin(), tiles.end());
             tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
             const auto accessor = mGrid->getConstAccessor();
@@ -152,7 +159,7 @@ private:
             }
         });
         std::vector<Found> all;
-        for (auto& part : mComm.gather(found)) all.insert(all.end(), part.begin(), part.end());
+        mComm.forEachRank(found, [&](const auto& part) { all.insert(all.end(), part.begin(), part.end()); });
         tbb::parallel_sort(all.begin(), all.end(),
                            [](const Found& a, const Found& b) { return a.tile < b.tile; });
         Skeleton skeleton;
@@ -203,30 +210,31 @@ private:
         skeleton.owner = CurvePartition(work, mComm.size());
     }
 
-    /// Read what own tiles need, in place of what finding them needed.
-    typename GridT::Ptr readFor(const Skeleton& skeleton, const std::vector<std::int64_t>& own) {
-        if (mComm.size() == 1) return std::move(mGrid);
-        mGrid.reset();
-        typename GridT::Ptr grid;
+    /// @return what own tiles need, in place of what finding them needed
+    typename GridT::Ptr partFor(const Skeleton& skeleton, const std::vector<std::int64_t>& own,
+                                const CurvePartition& finders, const std::vector<Coord>& blocks) {
+        typename GridT::Ptr grid = std::move(mGrid);
+        if (mComm.size() > 1) {
+            exchangeLeaves(
+                mComm, finders, blocks, [&](const Coord& block) { return isNear(skeleton, own, block); },
+                *grid);
+        }
         mComm.together([&] {
-            const auto needs = [&](const Coord& block) { return isNear(skeleton, own, block); };
-            grid = openvdb::gridPtrCast<GridT>(
-                readGridPart(mSource.path, mSource.name, [&](const std::vector<Coord>& blocks) {
-                    std::vector<bool> wanted;
-                    for (const Coord& block : blocks) wanted.push_back(needs(block));
-                    return wanted;
-                }));
+            mReport.gridMemory = std::int64_t(grid->memUsage());
+            mReport.memory = mReport.gridMemory + estimateMemory(std::int64_t(own.size()), mOptions) +
+                             forAllRanks(skeleton);
+            requireMemory(mReport.memory, mOptions, "meshing a rank's part of it");
         });
+        mComm.most(mReport.gridMemory);
+        mComm.most(mReport.memory);
         mRankReport.leaves = std::int64_t(grid->tree().leafCount());
         return grid;
     }
 
-    static typename GridT::Ptr readFinding(Comm& comm, const GridSource& source,
-                                           const CurvePartition& finders) {
-        return openvdb::gridPtrCast<GridT>(
-            readGridPart(source.path, source.name, [&](const std::vector<Coord>& blocks) {
-                return besideOwn(finders, blocks, comm.rank());
-            }));
+    /// @return the bytes of what all ranks know, and of MPI
+    std::int64_t forAllRanks(const Skeleton& skeleton) const {
+        constexpr std::int64_t kAnyRank = 60'000'000, kTile = 110, kTileGraded = 500;
+        return kAnyRank + std::int64_t(skeleton.tiles.size()) * (mOptions.grade ? kTileGraded : kTile);
     }
 
     /// Whether values in a block matter to own tiles.
@@ -260,6 +268,7 @@ private:
     typename GridT::Ptr mGrid;
     Frame mFrame;
     Level mLevel;
+    std::optional<Replacement<GridT>> mReplacement; ///< once all values are known
 };
 
 } // namespace
@@ -269,13 +278,14 @@ Report volumeToTets(const GridSource& source, MeshSink& sink, const Options& opt
     Comm comm(communicator);
     Report report;
     RankReport ranks;
-    comm.together([&] { checkOptions(options); });
     Interrupt interrupt(nullptr);
     CurvePartition finders({}, 1);
+    std::vector<Coord> blocks;
     openvdb::GridBase::Ptr grid;
     runStage("read", interrupt, report, [&] {
         comm.together([&] {
-            grid = readGridPart(source.path, source.name, [&](const std::vector<Coord>& blocks) {
+            grid = readGridPart(source.path, source.name, [&](const std::vector<Coord>& all) {
+                blocks = all;
                 std::vector<CurvePartition::Work> work;
                 for (const Coord& block : blocks) work.emplace_back(block, 1);
                 finders = CurvePartition(work, comm.size());
@@ -288,13 +298,14 @@ Report volumeToTets(const GridSource& source, MeshSink& sink, const Options& opt
     ranks.gridType = grid->valueType() + ", " + openvdb::GridBase::gridClassToString(grid->getGridClass());
     const auto run = [&](auto typed) {
         using GridT = typename decltype(typed)::element_type;
-        RankGrid<GridT>(comm, source, owner, options, report, ranks).run(std::move(typed), finders, sink);
+        RankGrid<GridT>(comm, source, owner, options, report, ranks)
+            .run(std::move(typed), finders, blocks, sink);
     };
     try {
         auto floats = openvdb::gridPtrCast<openvdb::FloatGrid>(grid);
         auto doubles = openvdb::gridPtrCast<openvdb::DoubleGrid>(grid);
         grid.reset();
-        // Nobody else keeps the grid, so that its part can go when the next one is read.
+        // Nobody else keeps the grid, so that its part can go when nobody reads it any more.
         floats ? run(std::move(floats)) : run(std::move(doubles));
     } catch (const FileError&) {
         throw; // a sink's, and about its file

@@ -60,14 +60,15 @@ void findMovable(const Vertices& vertices, TileRef tile, LocalStates& states,
 }
 
 /// Number the offsets, and let all vertices be at their destinations.
-Moves startMoves(const Vertices& vertices, Interrupt& interrupt) {
+Moves startMoves(const Vertices& vertices, Interrupt& interrupt, const Seams& seams) {
     Moves moves;
-    const std::int64_t count = vertices.layout.surfaceCount();
+    const std::int64_t count = vertices.layout.surfaceCount(), own = vertices.layout.ownCount();
     moves.moved.resize(std::size_t(count));
-    parallelRanges(count, interrupt, [&](std::int64_t begin, std::int64_t end) {
+    parallelRanges(own, interrupt, [&](std::int64_t begin, std::int64_t end) {
         LocalStates states;
         for (std::int64_t t = begin; t < end; ++t) findMovable(vertices, TileRef(t), states, moves.moved[t]);
     });
+    seams.exchange(moves.moved);
     moves.offsets.assign(std::size_t(moves.number()), Vec3f(0.0f));
     parallelRanges(count, interrupt, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t t = begin; t < end; ++t) {
@@ -244,6 +245,27 @@ private:
     VertexStep mStep;
 };
 
+/// Tell the other parts what the tiles of one parity have done, and get what theirs have.
+void shareTurn(const Seams& seams, const Layout& layout, int parity, Moves& moves, SweepState& state) {
+    const auto isOfTurn = [&](TileRef t) { return parityOf(layout.surfaceTiles[t]) == parity; };
+    // What is left to do in a tile of this turn its own part knows alone; in all others any may have marked.
+    for (std::int64_t t = layout.ownCount(); t < layout.surfaceCount(); ++t) {
+        if (isOfTurn(TileRef(t))) state.dirty[t] = {};
+    }
+    seams.unite(state.dirty);
+    const auto forEach = [&](TileRef t, const auto& visit) {
+        if (!isOfTurn(t)) return;
+        visit(&state.stuck[t], 1);
+        const std::int64_t begin = moves.first[t][bcc::A], end = moves.first[t + 1][bcc::A];
+        visit(moves.offsets.data() + begin, std::size_t(end - begin));
+    };
+    seams.exchange(
+        [&](TileRef t, Bytes& bytes) {
+            forEach(t, [&](const auto* from, std::size_t size) { pack(bytes, from, size); });
+        },
+        [&](TileRef t, Unpacker& next) { forEach(t, [&](auto* to, std::size_t size) { next(to, size); }); });
+}
+
 /// Forget the offsets of vertices inside that never moved.
 void compact(const Vertices& vertices, const VertexMasks& changed, Moves& moves) {
     std::int64_t from = 0, to = 0;
@@ -266,23 +288,26 @@ int percentAfter(double sweeps) { return int(100.0 * (1.0 - std::pow(3.0, -sweep
 } // namespace
 
 Optimized optimize(const Field& field, const Vertices& vertices, const Flips& flips,
-                   const OptimizeOptions& options, Interrupt& interrupt) {
+                   const OptimizeOptions& options, Interrupt& interrupt, const Seams& seams) {
     const double sine = std::sin(options.target / 57.295779513082320877);
     const StepGoals goals{sine * sine, options.tolerance};
     Optimized result;
     Moves& moves = result.moves;
-    moves = startMoves(vertices, interrupt);
+    moves = startMoves(vertices, interrupt, seams);
     Vertices current = vertices;
     current.moves = &moves;
-    const std::int64_t count = vertices.layout.surfaceCount();
+    const std::int64_t count = vertices.layout.ownCount();
     const VertexMasks none(vertices.layout.surfaceTiles.size());
     SweepState state{none, none, none};
 
     tbb::enumerable_thread_specific<std::unique_ptr<PoorMarker>> markers(
         [&] { return std::make_unique<PoorMarker>(current, flips, goals.quality); });
-    parallelRanges(count, interrupt, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t t = begin; t < end; ++t) markers.local()->find(TileRef(t), state.dirty);
+    seams.together([&] {
+        parallelRanges(count, interrupt, [&](std::int64_t begin, std::int64_t end) {
+            for (std::int64_t t = begin; t < end; ++t) markers.local()->find(TileRef(t), state.dirty);
+        });
     });
+    seams.unite(state.dirty);
     for (const auto& marker : markers) {
         result.before.min = std::min(result.before.min, marker->range().min);
         result.before.max = std::max(result.before.max, marker->range().max);
@@ -300,16 +325,24 @@ Optimized optimize(const Field& field, const Vertices& vertices, const Flips& fl
                 const auto& masks = state.dirty[t];
                 if (masks[0].any() || masks[1].any()) tiles.push_back(TileRef(t));
             }
-            any = any || !tiles.empty();
-            parallelRanges(std::int64_t(tiles.size()), interrupt, [&](std::int64_t begin, std::int64_t end) {
-                TileSweeper& sweeper = *sweepers.local();
-                for (std::int64_t i = begin; i < end; ++i) sweeper.sweep(tiles[i], moves, state);
+            if (!seams.any(!tiles.empty())) continue;
+            any = true;
+            seams.together([&] {
+                const auto size = std::int64_t(tiles.size());
+                parallelRanges(size, interrupt, [&](std::int64_t begin, std::int64_t end) {
+                    TileSweeper& sweeper = *sweepers.local();
+                    for (std::int64_t i = begin; i < end; ++i) sweeper.sweep(tiles[i], moves, state);
+                });
             });
+            shareTurn(seams, vertices.layout, parity, moves, state);
         }
         if (!any) break;
     }
     if (interrupt.stopped()) return result;
-    for (const auto& masks : state.changed) result.verticesMoved += masks[0].count() + masks[1].count();
+    for (std::int64_t t = 0; t < count; ++t)
+        result.verticesMoved += state.changed[t][0].count() + state.changed[t][1].count();
+    seams.sum(result.verticesMoved);
+    seams.exchange(state.changed);
     compact(vertices, state.changed, moves);
     return result;
 }

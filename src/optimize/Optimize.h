@@ -7,6 +7,7 @@
 #include "destinations/Moves.h"
 #include "field/Field.h"
 #include "flips/Flips.h"
+#include "tiles/Seams.h"
 
 #include <vdbtet/Quality.h>
 
@@ -22,8 +23,8 @@ struct OptimizeOptions {
 
 struct Optimized {
     Moves moves;
-    AngleRange before; ///< of the tets at manifold vertices
-    std::int64_t verticesMoved = 0;
+    AngleRange before;              ///< of the part's tets at manifold vertices
+    std::int64_t verticesMoved = 0; ///< in all parts
     int sweeps = 0;
 };
 
@@ -32,8 +33,9 @@ struct Optimized {
 /// Field::surfaceTiles()
 /// @details Each move makes the worst tet of its vertex better, and keeps the angles there in [25, 140]
 /// degrees, or where they were beyond. The connectivity stays. Tiles take turns by the parity of their
-/// coordinates: those of one turn are no neighbours, so what they do does not depend on their order.
+/// coordinates: those of one turn are no neighbours, so what they do does not depend on their order, nor on
+/// whose they are.
 Optimized optimize(const Field& field, const Vertices& vertices, const Flips& flips,
-                   const OptimizeOptions& options, Interrupt& interrupt);
+                   const OptimizeOptions& options, Interrupt& interrupt, const Seams& seams = Seams());
 
 } // namespace vdbtet

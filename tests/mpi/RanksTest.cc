@@ -101,11 +101,20 @@ void requireSame(const openvdb::FloatGrid& grid, const Options& options, const m
     CHECK(together.boundaryTriangles == alone.boundaryTriangles);
     CHECK(together.surfaceTiles == alone.surfaceTiles);
     CHECK(together.cutEdges == alone.cutEdges);
+    CHECK(together.badValues == alone.badValues);
     CHECK(together.backLabelled == alone.backLabelled);
     CHECK(together.tieBroken == alone.tieBroken);
     CHECK(together.activeFlips == alone.activeFlips);
     CHECK(together.extraFlips == alone.extraFlips);
     CHECK(together.lastResortFlips == alone.lastResortFlips);
+    CHECK(together.qualityFlips == alone.qualityFlips);
+    CHECK(together.flagged == alone.flagged);
+    CHECK(together.guardRounds == alone.guardRounds);
+    CHECK(together.angleMin == alone.angleMin);
+    CHECK(together.anglesBefore.min == alone.anglesBefore.min);
+    CHECK(together.anglesBefore.max == alone.anglesBefore.max);
+    CHECK(together.verticesMoved == alone.verticesMoved);
+    CHECK(together.sweeps == alone.sweeps);
     CHECK(together.conflicts == alone.conflicts);
     CHECK(together.ambiguous == alone.ambiguous);
     CHECK(together.tetsOfLevel == alone.tetsOfLevel);
@@ -219,6 +228,48 @@ TEST_CASE("What is pinched at a seam is mended as one process does") {
     }
 }
 
+TEST_CASE("Version 3 flags across seams what one process flags") {
+    const auto gyroid = levelSet(gyroidBall(Vec3d(0.3, -2.1, 1.7), 20.0, 12.0, 3.0), rotatedTransform(1.0));
+    const auto noise = levelSet(noiseBall(7, Vec3d(0.0), 16.0, 4.0), shearedTransform(1.0));
+    Options third;
+    third.tiger = 3;
+    for (const auto& grid : {gyroid, noise}) {
+        for (const bool grade : {false, true}) {
+            CAPTURE(rankOf(), grade);
+            third.grade = grade;
+            Report report;
+            requireSame(*grid, third, {}, &report);
+            CHECK(report.guardRounds > 1);
+            CHECK(report.qualityFlips > 0);
+            requireSame(*grid, third, checkered());
+            requireSame(*grid, third, atRandom(6));
+        }
+    }
+    third.tau = 0.55;
+    Report report;
+    requireSame(*randomSigns(16, 1), third, checkered(), &report);
+    CHECK(report.boundary.found > 0);
+    CHECK(report.flagged > 0);
+}
+
+TEST_CASE("Points move across seams as in one process") {
+    const auto gyroid = levelSet(gyroidBall(Vec3d(0.3, -2.1, 1.7), 18.0, 12.0, 3.0), rotatedTransform(1.0));
+    const auto noise = levelSet(noiseBall(2, Vec3d(0.0), 14.0, 3.0), shearedTransform(1.0));
+    Options options;
+    for (const double target : {30.0, 35.0}) {
+        options.optimize = target;
+        CAPTURE(rankOf(), target);
+        Report report;
+        requireSame(*gyroid, options, checkered(), &report);
+        CHECK(report.sweeps > 2);
+        requireSame(*noise, options, atRandom(8));
+    }
+    options.grade = true;
+    requireSame(*gyroid, options, atRandom(9));
+    options.tiger = 3;
+    requireSame(*noise, options, checkered());
+}
+
 TEST_CASE("A graded inside is that of one process") {
     const auto ball = levelSet(sphere(Vec3d(1.0, 2.0, 3.0), 50.0));
     const auto gyroid = levelSet(gyroidBall(Vec3d(0.3, -2.1, 1.7), 30.0, 40.0, 14.0), rotatedTransform(1.0));
@@ -246,6 +297,39 @@ TEST_CASE("Constant tiles are found by the ranks that they are given to") {
     requireSame(*constantTiles(128, {Coord(0), Coord(128, 128, 0)}, true), raw(), atRandom(5));
 }
 
+TEST_CASE("Values without a sign are taken for what one process takes them for") {
+    const float nan = std::numeric_limits<float>::quiet_NaN(),
+                infinity = std::numeric_limits<float>::infinity();
+    const auto holes = levelSet(sphere(Vec3d(1.0, 2.0, 3.0), 30.0));
+    for (int i = -30; i <= 30; i += 2) {
+        holes->tree().setValue(Coord(i, 31 - std::abs(i), 4), nan);
+        holes->tree().setValue(Coord(3, i, std::abs(i) - 27), infinity);
+    }
+    holes->tree().addTile(1, Coord(0, 0, 32), nan, true);
+    Options options;
+    options.nan = Nan::Inside;
+    Report report;
+    requireSame(*holes, options, {}, &report);
+    CHECK(report.badValues == 63); // a tile among them
+    options.nan = Nan::Outside;
+    requireSame(*holes, options, atRandom(7));
+    holes->tree().root().setBackground(nan, false);
+    requireSame(*holes, options, {});
+    requireSame(*holes, options, checkered());
+}
+
+TEST_CASE("A limit on memory is one of each rank") {
+    const SharedGrid shared(*levelSet(sphere(Vec3d(0.0), 20.0)));
+    TetMesh mesh;
+    Options options;
+    options.maxMemory = std::int64_t(1) << 40;
+    const Report report = mpi::volumeToTets(shared.source(), mesh, options, MPI_COMM_WORLD);
+    CHECK(report.memory > report.gridMemory);
+    options.maxMemory = report.memory - 1;
+    CHECK_THROWS_WITH(mpi::volumeToTets(shared.source(), mesh, options, MPI_COMM_WORLD),
+                      Catch::Matchers::Contains("a rank's part of it"));
+}
+
 TEST_CASE("An error of one rank is that of all") {
     struct Failing final : MeshSink {
         bool begin(const MeshTotals&) override { return true; }
@@ -259,9 +343,9 @@ TEST_CASE("An error of one rank is that of all") {
     Failing sink;
     CHECK_THROWS_AS(mpi::volumeToTets(shared.source(), sink, Options(), MPI_COMM_WORLD), FileError);
     CHECK_FALSE(sink.ended);
-    Options third;
-    third.tiger = 3;
-    CHECK_THROWS_AS(mpi::volumeToTets(shared.source(), sink, third, MPI_COMM_WORLD), BadOption);
+    Options unknown;
+    unknown.tiger = 4;
+    CHECK_THROWS_AS(mpi::volumeToTets(shared.source(), sink, unknown, MPI_COMM_WORLD), BadOption);
     const auto bad = levelSet(sphere(Vec3d(0.0), 20.0));
     bad->tree().setValue(Coord(20, 0, 0), std::numeric_limits<float>::quiet_NaN());
     const SharedGrid damaged(*bad);

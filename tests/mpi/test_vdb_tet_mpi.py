@@ -60,10 +60,25 @@ class RanksTest(tool.ToolTest):
         self.require_same("sphere.vdb", "out.vtu", "--grade", "--voxels", "0.3", "--max-size", "0.06")
         self.require_same("lace.vdb", "out.vtkhdf", "--grade")
 
+    def test_version_3_is_that_of_one_process(self):
+        self.require_same("lace.vdb", "out.vtkhdf", "--tiger", "3")
+        self.require_same("lace.vdb", "out.vtu", "--tiger", "3", "--tau", "0.5", "--grade")
+
+    def test_points_are_moved_as_in_one_process(self):
+        self.require_same("lace.vdb", "out.vtkhdf", "--optimize", "--grade")
+
     def test_what_the_lattice_does_not_resolve_is_mended_alike(self):
         self.require_same("lace.vdb", "out.vtkhdf")
         self.require_same("lace.vdb", "out.node", "--boundary", "fill", "--tiger", "1")
         self.require_same("lace.vdb", "out.mesh", "--boundary", "raw", "--voxels", "0.8")
+
+    def test_fields_are_those_of_one_process(self):
+        self.require_same("fields.vdb", "out.vtkhdf", "-n", "ball", "--sample", "all", "--sample-cells", "all")
+        self.require_same("sphere.vdb", "out.msh", "--voxels", "0.3", "--fields-from", "level_set_and_fog.vdb",
+                          "--sample", "density,ball", "--boundary-flag", "--min-dihedral", "--scale", "3")
+
+    def test_an_archive_has_the_checksums_of_one_process(self):
+        self.require_same("sphere.vdb", "out.npz", "--voxels", "0.3", "--min-dihedral")
 
     def test_pieces_are_the_mesh_with_their_neighbours_points_marked(self):
         try:
@@ -119,13 +134,13 @@ class RanksTest(tool.ToolTest):
                 (1, "none.vdb", ("none.vdb", "out.vtu")),
                 (1, "frozen", ("sphere.vdb", "out.vtu", "-n", "frozen")),
                 (1, "nowhere", ("sphere.vdb", "nowhere/out.vtu")),
-                (2, "version 3", ("sphere.vdb", "out.vtu", "--tiger", "3")),
-                (2, "optimisation", ("sphere.vdb", "out.vtu", "--optimize")),
                 (2, "compress", ("sphere.vdb", "out.vtu", "--compress")),
-                (2, "npz", ("sphere.vdb", "out.npz")),
+                (2, "--distance", ("sphere.vdb", "out.vtu", "--distance")),
+                (1, "a rank's part", ("sphere.vdb", "out.vtu", "--max-memory", "1M")),
+                (1, "no grid named", ("sphere.vdb", "out.vtu", "--sample", "smoke")),
                 (2, "compress", ("sphere.vdb", "out.pvtu", "--compress")),
                 (1, "nowhere", ("sphere.vdb", "nowhere/out.pvtu")),
-                (2, "field", ("sphere.vdb", "out.vtu", "--boundary-flag")),
+                (2, "fields", ("sphere.vdb", "out.pvtu", "--boundary-flag")),
                 (2, "more than one mesh", ("sphere.vdb", "fog.vdb", "{stem}.vtu")),
                 (2, "OUT", ("sphere.vdb",))):
             with self.subTest(arguments=arguments):

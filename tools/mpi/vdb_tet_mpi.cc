@@ -6,13 +6,17 @@
 
 #include "CommandLine.h"
 #include "Console.h"
+#include "Fields.h"
 #include "Summary.h"
 #include "UsageError.h"
+#include "batch/Memory.h"
+#include "io/GridPart.h"
 #include "io/OutputFile.h"
+#include "mpi/Comm.h"
 #include "surface/TriangleMesh.h"
 
 #include <vdbtet/Errors.h>
-#include <vdbtet/GridFile.h>
+#include <vdbtet/FieldSampler.h>
 #include <vdbtet/MeshScaler.h>
 
 #include <nlohmann/json.hpp>
@@ -22,11 +26,13 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <iostream>
 #include <memory>
 #include <new>
+#include <optional>
 
 namespace {
 
@@ -110,9 +116,11 @@ void requireKnown(const CommandLine& line) {
            "more than one mesh a run");
     refuse(isSurfaceFile(line.inputs[0]), "meshing a surface");
     refuse(!line.surface.empty(), "--surface");
-    refuse(line.hasFields(), "a field at points or in tets");
+    refuse(line.distance, "--distance");
     if (isPvtu(line) && line.formatOptions.compression > 0)
         throw UsageError(".pvtu files are written without compression; leave --compress out");
+    if (isPvtu(line) && line.hasFields())
+        throw UsageError(".pvtu files are written without fields; take a .vtkhdf or .vtu file for these");
     refuse(line.report.size() > 5 && line.report.rfind(".html") == line.report.size() - 5,
            "a report in HTML");
 }
@@ -142,6 +150,28 @@ nlohmann::json gatherRanks(const mpi::RankReport& own) {
     return ranks;
 }
 
+/// The limit on memory of each rank: what is free on its host is shared out there, unless one is given.
+vdbtet::Options withMemoryLimit(vdbtet::Options options) {
+    const std::optional<std::int64_t> free = freeMemory();
+    MPI_Comm host = MPI_COMM_NULL;
+    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &host);
+    int ranks = 1;
+    MPI_Comm_size(host, &ranks);
+    MPI_Comm_free(&host);
+    if (!options.maxMemory && free) options.maxMemory = std::max<std::int64_t>(*free / ranks, 1);
+    return options;
+}
+
+/// All ranks' fields; each reads of the grids what it samples.
+vdbtet::FieldOptions fieldsOf(const CommandLine& line) {
+    vdbtet::FieldOptions fields;
+    if (!line.hasFields()) return fields;
+    mpi::Comm(MPI_COMM_WORLD).together([&] {
+        fields = readFields(line, vdbtet::readGridHead(line.in, line.name)->getName(), /*delayLoad=*/true);
+    });
+    return fields;
+}
+
 void run(const CommandLine& given, bool speaks) {
     requireKnown(given);
     CommandLine line = given;
@@ -157,9 +187,10 @@ void run(const CommandLine& given, bool speaks) {
     {
         Output output(line);
         vdbtet::MeshScaler scaler(output, line.scale);
-        vdbtet::MeshSink& sink = line.scale == 1.0 ? static_cast<vdbtet::MeshSink&>(output) : scaler;
-        summary.report =
-            mpi::volumeToTets({line.in, line.name}, sink, line.options, MPI_COMM_WORLD, {}, &own);
+        vdbtet::MeshSink& written = line.scale == 1.0 ? static_cast<vdbtet::MeshSink&>(output) : scaler;
+        vdbtet::FieldSampler sampler(written, fieldsOf(line));
+        summary.report = mpi::volumeToTets({line.in, line.name}, sampler, withMemoryLimit(line.options),
+                                           MPI_COMM_WORLD, {}, &own);
         summary.bytes = output.bytes;
         summary.gridType = own.gridType;
     }

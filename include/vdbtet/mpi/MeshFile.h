@@ -20,7 +20,7 @@ namespace vdbtet::mpi {
 /// the same on all ranks.
 class MeshFile final : public MeshSink {
 public:
-    /// @throw BadOption  as vdbtet::MeshFile; and for compressed files and for npz, which has checksums
+    /// @throw BadOption  as vdbtet::MeshFile; and for compressed files
     /// @throw FileError  where it cannot be written
     MeshFile(MPI_Comm comm, const std::string& path, const std::string& format = {},
              const FormatOptions& options = {});

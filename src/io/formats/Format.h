@@ -6,6 +6,7 @@
 
 #include <vdbtet/MeshFile.h>
 
+#include <cstdint>
 #include <cstring>
 #include <deque>
 #include <memory>
@@ -22,8 +23,16 @@ public:
     /// Write a chunk into @a files, one for each layout; called by several threads at once.
     virtual void write(const MeshChunk& chunk, std::deque<RecordFile>& files) const = 0;
 
+    /// @return checksums of the records written; where several processes write one file, those of the file
+    /// are theirs XORed
+    virtual std::vector<std::uint32_t> checksums() const { return {}; }
+
     /// Write what is known only now that every chunk is written.
-    virtual void finish(std::deque<RecordFile>& files) const { static_cast<void>(files); }
+    /// @param checksums  of the file
+    virtual void finish(std::deque<RecordFile>& files, const std::vector<std::uint32_t>& checksums) const {
+        static_cast<void>(files);
+        static_cast<void>(checksums);
+    }
 
     const std::vector<RecordLayout>& layouts() const { return mLayouts; }
     bool wantsTriangles() const { return mWantsTriangles; }

@@ -27,7 +27,10 @@ public:
     explicit Npz(const MeshTotals& totals);
 
     void write(const MeshChunk& chunk, std::deque<RecordFile>& files) const override;
-    void finish(std::deque<RecordFile>& files) const override { mZip.writeCrcs(files[0]); }
+    std::vector<std::uint32_t> checksums() const override { return mZip.crcs(); }
+    void finish(std::deque<RecordFile>& files, const std::vector<std::uint32_t>& crcs) const override {
+        mZip.writeCrcs(files[0], crcs);
+    }
 
 private:
     bool mFloat32, mInt32;

@@ -33,7 +33,7 @@ StoredZip::Entry& StoredZip::append(RecordLayout& layout, const std::string& nam
     layout.text(littleEndian({{kSee64, 4}, {kSee64, 4}, {name.size(), 2}, {20, 2}}) + name +
                 littleEndian({{1, 2}, {16, 2}, {entry.bytes, 8}, {entry.bytes, 8}}) + text);
     entry.records = layout.records(count, bytesEach);
-    addToCrc(entry, text.data(), text.size(), recordsBytes);
+    entry.textCrc = crcOf(text.data(), text.size(), recordsBytes);
     return entry;
 }
 
@@ -55,15 +55,22 @@ void StoredZip::appendDirectory(RecordLayout& layout) {
                 littleEndian({{0, 2}, {0, 2}, {count, 2}, {count, 2}, {size, 4}, {kSee64, 4}, {0, 2}}));
 }
 
-void StoredZip::addToCrc(Entry& entry, const char* part, std::size_t bytes, std::uint64_t bytesAfter) {
+std::uint32_t StoredZip::crcOf(const char* part, std::size_t bytes, std::uint64_t bytesAfter) {
     // The checksum is linear: each part adds its own, moved on by as many bytes as come after it.
     const uLong own = crc32_z(0, reinterpret_cast<const Bytef*>(part), bytes);
-    entry.crc ^= static_cast<std::uint32_t>(crc32_combine(own, 0, static_cast<z_off_t>(bytesAfter)));
+    return static_cast<std::uint32_t>(crc32_combine(own, 0, static_cast<z_off_t>(bytesAfter)));
 }
 
-void StoredZip::writeCrcs(RecordFile& file) const {
+std::vector<std::uint32_t> StoredZip::crcs() const {
+    std::vector<std::uint32_t> all;
+    for (const Entry& entry : mEntries) all.push_back(entry.crc);
+    return all;
+}
+
+void StoredZip::writeCrcs(RecordFile& file, const std::vector<std::uint32_t>& crcs) const {
+    auto next = crcs.begin();
     for (const Entry& entry : mEntries) {
-        const std::string crc = littleEndian({{entry.crc, 4}});
+        const std::string crc = littleEndian({{entry.textCrc ^ *next++, 4}});
         for (const auto& place : entry.crcPlaces) {
             file.put(place, 0, 1, [&crc](std::size_t, std::size_t, char* to) { crc.copy(to, crc.size()); });
         }

@@ -11,6 +11,7 @@
 #include <initializer_list>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace vdbtet {
 
@@ -26,7 +27,8 @@ public:
         std::int64_t count = 0; ///< of the records
         RecordLayout::Section records;
         std::array<RecordLayout::Section, 2> crcPlaces; ///< local header, directory
-        std::atomic<std::uint32_t> crc{0};
+        std::uint32_t textCrc = 0;
+        std::atomic<std::uint32_t> crc{0}; ///< of the records written
     };
 
     /// An entry of a text and records behind it.
@@ -43,14 +45,18 @@ public:
             encode(i, n, to);
             const auto after = std::uint64_t(entry.count - first) - (i + n);
             const std::size_t bytesEach = entry.records.recordBytes;
-            addToCrc(entry, to, n * bytesEach, after * bytesEach);
+            entry.crc ^= crcOf(to, n * bytesEach, after * bytesEach);
         });
     }
 
-    void writeCrcs(RecordFile& file) const;
+    /// @return of each entry, the checksum of the records written, the others taken to be zero bits: so
+    /// those of parts, XORed, are that of the whole
+    std::vector<std::uint32_t> crcs() const;
+    /// @param crcs  of each entry, that of all its records
+    void writeCrcs(RecordFile& file, const std::vector<std::uint32_t>& crcs) const;
 
 private:
-    static void addToCrc(Entry& entry, const char* part, std::size_t bytes, std::uint64_t bytesAfter);
+    static std::uint32_t crcOf(const char* part, std::size_t bytes, std::uint64_t bytesAfter);
 
     std::deque<Entry> mEntries;
 };

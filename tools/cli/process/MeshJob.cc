@@ -2,6 +2,7 @@
 /// The library's parts, put together as the command line says.
 #include "process/MeshJob.h"
 
+#include "Fields.h"
 #include "Summary.h"
 #include "batch/Memory.h"
 #include "process/Query.h"
@@ -101,25 +102,12 @@ openvdb::GridBase::Ptr readInput(const CommandLine& line, Summary& summary, Repo
     }
 }
 
-/// The grids of a list of names.
-std::vector<openvdb::GridBase::ConstPtr> gridsOf(const std::vector<std::string>& names,
-                                                 const CommandLine& line, const openvdb::GridBase& meshed) {
-    if (names.empty()) return {};
-    const bool elsewhere = !line.fieldsFrom.empty();
-    const std::string& file = elsewhere ? line.fieldsFrom : line.in;
-    const bool all = names.size() == 1 && names[0] == "all";
-    const ReadingLimits limits(file);
-    return vdbtet::readFields(file, all ? std::vector<std::string>() : names,
-                              elsewhere ? std::string() : meshed.getName());
-}
-
 vdbtet::FieldOptions fieldsOf(const CommandLine& line, const openvdb::GridBase& meshed, Reporter& reporter) {
     vdbtet::FieldOptions fields;
-    fields.pointGrids = gridsOf(line.sample, line, meshed);
-    fields.cellGrids =
-        line.sampleCells == line.sample ? fields.pointGrids : gridsOf(line.sampleCells, line, meshed);
-    fields.boundaryFlag = line.boundaryFlag;
-    fields.minDihedral = line.minDihedral;
+    if (line.hasFields()) {
+        const ReadingLimits limits(line.fieldsFrom.empty() ? line.in : line.fieldsFrom);
+        fields = readFields(line, meshed.getName());
+    }
     if (!line.distance) return fields;
     openvdb::GridBase::Ptr distance;
     if (line.dryRun) { // only its name and type count
