@@ -81,7 +81,8 @@ public:
     VDBTET_KERNEL void add(const double* block, int lowest, double tau) {
         VoxelCube::Corners corners;
         VoxelCube(block + lowest).nearer<kHalved>(tau, corners);
-        mRows[lowest / kRow] |= Lanes(corners) & std::uint16_t(1 << lowest % kRow);
+        const auto bit = std::uint16_t(1 << lowest % kRow);
+        mRows[lowest / kRow] |= Lanes(corners) & bit;
     }
 
     /// @param masks  receives the mask of each corner

@@ -71,7 +71,7 @@ TEST_CASE("a run stops wherever its interrupter says so") {
             CHECK_FALSE(sink.ended);
             (sink.begun ? stoppedAfterBegin : stoppedBeforeBegin) = true;
         } else {
-            CHECK(interrupter.asked() < n);
+            CHECK(interrupter.asked() <= n); // the last question comes too late
             CHECK(sink.ended);
             requireIdentical(sink.mesh, whole.mesh);
         }
