@@ -46,7 +46,8 @@ struct RankReport {
 /// done by all threads of the caller's tbb::task_arena. An error of one rank is thrown on all of them, but
 /// for std::bad_alloc where memory is short between two stages: then end the job, by MPI_Abort().
 /// @throw FileError  where the grid cannot be read
-/// @throw BadOption, UnsupportedGrid, BadValue, NoSurface, UnboundedInside, TooLarge, and whatever the sinks throw
+/// @throw BadOption, UnsupportedGrid, BadValue, NoSurface, UnboundedInside, TooLarge, and whatever the sinks
+/// throw
 Report volumeToTets(const GridSource& source, MeshSink& sink, const Options& options, MPI_Comm comm,
                     const Owner& owner = {}, RankReport* rankReport = nullptr);
 
