@@ -73,8 +73,8 @@ private:
         for (int slot = 0; slot < 27; ++slot) {
             const int dx = slot / 9 - 1, dy = slot / 3 % 3 - 1, dz = slot % 3 - 1;
             const int x = place.x() + dx, y = place.y() + dy, z = place.z() + dz;
-            const int n = x << 2 * kLog2 | y << kLog2 | z;
             if (node && ((x | y | z) & ~kMost) == 0) {
+                const int n = x << 2 * kLog2 | y << kLog2 | z;
                 const auto& entry = node->getTable()[n];
                 leaves[slot] = node->isChildMaskOn(n) ? entry.getChild()->buffer().data()
                                                       : constantLeaf(slot, entry.getValue());
